@@ -5,6 +5,8 @@ the argument's name."""
 import math
 import numbers
 import os
+import sys
+import warnings
 
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 
@@ -26,6 +28,14 @@ def refuse(argument, expected, value):
     if isinstance(value, (list, tuple)) and len(repr(value)) <= _LONGEST_VALUE:
         found = repr(value)
     raise TypeError("%s must be %s, not %s%s" % (argument, expected, found, hint))
+
+
+def warn(message, category=UserWarning):
+    """A warning at the line of the program that called the package, however deep."""
+    package, frame, level = __name__.partition(".")[0] + ".", sys._getframe(1), 2
+    while frame.f_back and (frame.f_globals.get("__name__") or "").startswith(package):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(message, category, stacklevel=level)
 
 
 def check_name(argument, value):

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Data sets of composite data, components of their arrays, and messages of filters."""
 import numbers
-import warnings
 
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataSet
+
+from .arguments import warn
 
 
 def leaves_of(data):
@@ -89,4 +90,4 @@ def run(algorithm):
     if messages["ErrorEvent"]:
         raise ValueError(messages["ErrorEvent"][0])
     for message in messages["WarningEvent"]:
-        warnings.warn(message, RuntimeWarning, stacklevel=4)
+        warn(message, RuntimeWarning)

@@ -3,6 +3,7 @@
 """Names of the settings of vtkTetrahedraRayCastMapper, the material of lit volumes, and properties
 of VTK's objects by name."""
 import math
+import re
 
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 from vtkmodules.vtkRenderingVolume import vtkVolumeMapper
@@ -39,9 +40,17 @@ def choose(kind, name, known):
     return known[name]
 
 
+def _find_choices(target, name):
+    """The methods SetXToY() of a property X, by the names of the choices Y, in small letters."""
+    start = "Set%sTo" % name
+    return {re.sub("(?<=[a-z])(?=[A-Z][a-z])", "_", method[len(start):]).lower(): method
+            for method in dir(target) if method.startswith(start)}
+
+
 def set_properties(target, properties):
-    """Calls SetX(value) of a vtkAlgorithm for each X=value of a dictionary; a name X that it has
-    not is an AttributeError that lists those that it has, and NaN a ValueError."""
+    """Calls SetX(value) of a vtkAlgorithm for each X=value of a dictionary, and SetXToY() for the
+    name of a choice, X="y"; a name X that it has not is an AttributeError that lists those that it
+    has, and NaN or another name of a choice a ValueError."""
     for name, value in properties.items():
         setter = getattr(target, "Set" + name, None)
         if setter is None:
@@ -53,4 +62,8 @@ def set_properties(target, properties):
         values = value if isinstance(value, (tuple, list)) else [value]
         if any(isinstance(each, float) and math.isnan(each) for each in values):
             raise ValueError("%s must not be NaN" % name)
-        setter(value)
+        choices = _find_choices(target, name) if isinstance(value, str) else {}
+        if choices:
+            getattr(target, choose(name, value, choices))()
+        else:
+            setter(value)

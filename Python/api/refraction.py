@@ -3,12 +3,11 @@
 """Meshes as an eye sees them through refracting surfaces."""
 from __future__ import annotations
 
-import warnings
 from typing import TYPE_CHECKING, Any
 
 import pyvista
 
-from ..arguments import check_dataset, check_numbers
+from ..arguments import check_dataset, check_numbers, warn
 from ..data import run
 from ..names import choose, set_properties
 from ..vtkMeniscus import vtkRefractedGeometryFilter
@@ -75,9 +74,8 @@ def refracted(
         raise TypeError("Arguments of plotter.add_mesh() need a plotter as eye: "
                         + ", ".join(arguments))
     if hasattr(eye, "GetPosition"):
-        warnings.warn("The geometry is that for the camera's present position; give the plotter as "
-                      "eye for an actor that follows the camera, or a position", RuntimeWarning,
-                      stacklevel=2)
+        warn("The geometry is that for the camera's present position; give the plotter as eye for "
+             "an actor that follows the camera, or a position", RuntimeWarning)
     position: Sequence[float] = getattr(eye, "position", eye)
     refraction.SetEyePosition(*position)
     run(refraction)

@@ -1,14 +1,13 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Arrays of a mesh that are drawn: one, colours, or one for colours and one for opacity."""
-import warnings
 
 import numpy
 import pyvista
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 
-from ..arguments import check_name, check_values, refuse, take_range
+from ..arguments import check_name, check_values, refuse, take_range, warn
 from ..data import check_component, replace_leaves, with_array
 from ..viewer.cells import check_drawable, drawn_cells_of, drawn_leaves_of, drawn_points_of
 from ..viewer.files import ReadingError
@@ -139,9 +138,9 @@ class Scalars:
         low, high = map(int if whole else float, extremes)
         shown = choose_of_range(low, high, whole)
         if not shown.is_plain():
-            warnings.warn("The values of '%s', from %r to %r, are too near to each other, or too "
-                          "large or small, for functions of colour and opacity; draw %s instead" % (
-                              self.name, low, high, shown.name_of(self.name)), stacklevel=4)
+            warn("The values of '%s', from %r to %r, are too near to each other, or too large or "
+                 "small, for functions of colour and opacity; draw %s instead" % (
+                     self.name, low, high, shown.name_of(self.name)))
 
     def _take_colors(self, component):
         """Mixes the components as colour and opacity."""

@@ -8,7 +8,6 @@ import inspect
 import math
 import numbers
 import re
-import warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy
@@ -17,7 +16,7 @@ from vtkmodules.vtkCommonCore import VTK_SCALE_LOG10, vtkDataArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkUnstructuredGrid
 
 from ..arguments import (
-    check_count, check_finite, check_numbers, check_plotter, refuse, take_number, take_range)
+    check_count, check_finite, check_numbers, check_plotter, refuse, take_number, take_range, warn)
 from ..data import leaves_of
 from ..names import BACKENDS, ISOSURFACE_OPACITY, MATERIAL, SCATTERED_SHARE, SHADOWED_MATERIAL
 from ..viewer.cells import drawn_cells_of, drawn_leaves_of
@@ -264,8 +263,7 @@ def _warn_of_emptiness(look, scalars, is_surface):
         empty, reason = not any(
             low <= value <= high for value in values), "it has none of the isovalues"
     if empty:
-        warnings.warn("Nothing of '%s' can be seen: %s, from %g to %g" % (
-            scalars.name, reason, low, high), stacklevel=3)
+        warn("Nothing of '%s' can be seen: %s, from %g to %g" % (scalars.name, reason, low, high))
 
 
 def _wrap(mesh, resolution):
@@ -363,9 +361,9 @@ def add_to(
         plotter.add_volume().
     arguments: all other arguments of plotter.add_volume() but mapper, such as cmap (a name of
         PyVista, matplotlib, cmocean or colorcet), opacity, clim, log_scale, n_colors, user_matrix;
-        and properties of vtkTetrahedraRayCastMapper, such as CellDivision=1. With log_scale, colour
-        and opacity depend on the logarithm of the value; without clim, from the least value above 0
-        on.
+        and properties of vtkTetrahedraRayCastMapper, such as CellDivision="adaptive". With
+        log_scale, colour and opacity depend on the logarithm of the value; without clim, from the
+        least value above 0 on.
 
     Raises ValueError for a mesh without volume, for several components without a choice, for
     scalars that are missing or not finite, for numbers that are not finite or out of range, limits

@@ -19,6 +19,9 @@ BINS = 64
 # Share of the largest area that is added to each level's. It limits the opacity of values that
 # hardly occur to 50 times the opacity of the most frequent value.
 FLOOR = 0.02
+# If areas differ by a smaller share of the largest one, no value is that of the surroundings, and the
+# least opacity is above 0: with equal areas all values have the same.
+_EVEN = 0.1
 # Mean optical depth of a ray through the middle of a cube of the mesh's size.
 OPTICAL_DEPTH = 1.5
 
@@ -197,13 +200,26 @@ def _measure(leaf, name, association, component, drawn):
     return (*_ranges_of_cells(grid, name, association, component), _measure_cells(grid, drawn))
 
 
+def _find_changes(begins, ends, weights):
+    """Differences between neighbouring bins of the sum of weights, each of which counts in a bin by
+    the share of it that its interval covers. begins, ends: of intervals, in bins from 0 to BINS."""
+    changes = numpy.zeros(BINS + 2)
+    for places, sign in (ends, 1.0), (begins, -1.0):
+        bins = places.astype(int)
+        beyond = (places - bins) * weights
+        changes += sign * (numpy.bincount(bins, beyond - weights, BINS + 2)
+                           - numpy.bincount(bins + 1, beyond, BINS + 2))
+    return changes[:BINS]
+
+
 class Levels:
     """Isosurface areas and volumes of a scalar field, by level.
 
     A cell counts for every level between the least and the largest value of its points, by its
     volume to the power 2/3: the number of cells that a surface crosses estimates its area (Carr,
-    Duffy and Denby, "On histograms and isosurface statistics", 2006). Values that are not finite
-    are left out.
+    Duffy and Denby, "On histograms and isosurface statistics", 2006). Its volume is spread evenly
+    over these levels. Those of a cell of nearly one value are one bin wide. Values that are not
+    finite are left out.
 
     low, high: range of the scalar in the cells that are drawn; 0 and 1 if is_empty, without any
     finite value. areas, volumes: by bin, BINS of them.
@@ -238,16 +254,16 @@ class Levels:
 
         def count(begin, end):
             sizes = volumes[begin:end]
-            areas = sizes ** (2.0 / 3.0)
-            first, last = (
-                numpy.clip((values[begin:end] - self.low) / width, 0, BINS - 1).astype(int)
-                for values in (lows, highs))
-            changes = (numpy.bincount(first, areas, BINS + 1)
-                       - numpy.bincount(last + 1, areas, BINS + 1))
-            found[begin] = changes, numpy.bincount((first + last) // 2, sizes, BINS)
+            first, last = ((values[begin:end] - self.low) / width for values in (lows, highs))
+            length = numpy.clip(last - first, 1.0, BINS)
+            first = numpy.clip(0.5 * (first + last - length), 0.0, BINS - length)
+            last = numpy.minimum(first + length, BINS)  # which the sum may exceed by rounding
+            found[begin] = (_find_changes(first, last, sizes ** (2.0 / 3.0)),
+                            _find_changes(first, last, sizes / length))
         run_blocks(count, lows.size, _BLOCK_SIZE)
-        changes, self.volumes = map(sum, zip(*(found[begin] for begin in sorted(found))))
-        self.areas = numpy.maximum(numpy.cumsum(changes)[:-1], 0.0)
+        self.areas, self.volumes = (
+            numpy.maximum(numpy.cumsum(sum(parts)), 0.0)
+            for parts in zip(*(found[begin] for begin in sorted(found))))
 
     def get_opacity(self):
         """Attenuation coefficients as pairs (scalar, coefficient), per diagonal of the mesh.
@@ -261,7 +277,8 @@ class Levels:
             return [(self.low, middle), (max(self.high, self.low + 1e-6), middle)]
         shares = self.areas / self.areas.max()
         weights = 1.0 / (shares + FLOOR)
-        weights -= weights.min()  # the most frequent value is transparent
+        # The most frequent value is transparent.
+        weights -= weights.min() * min((1.0 - shares.min()) / _EVEN, 1.0)
         mean = (weights * self.volumes).sum() / self.volumes.sum()
         if mean > 0.0:
             weights *= OPTICAL_DEPTH * 3 ** 0.5 / mean

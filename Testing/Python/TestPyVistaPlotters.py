@@ -14,6 +14,7 @@ except ImportError:
     print("skipped: no pyvista")
     sys.exit(125)
 
+import meniscus
 import numpy
 from meniscus.pyvista import add_volume
 
@@ -308,6 +309,23 @@ class TestPyVistaPlotters(unittest.TestCase):
                                ({"xyzzy": 1}, "`$")):
             with self.assertRaisesRegex(TypeError, message):
                 add_ours(plotter, FIRST, "height", **named)
+
+    def test_properties_by_the_names_of_their_choices(self):
+        mapper = add_ours(pyvista.Plotter(off_screen=True), FIRST, "height", Backend="opengl",
+                          CellDivision="adaptive", Gradients="cell_gradients").mapper
+        self.assertEqual(mapper.GetCellDivision(), mapper.ADAPTIVE_DIVISION)
+        self.assertEqual(mapper.GetGradients(), mapper.CELL_GRADIENTS)
+        self.assertEqual(mapper.GetBackend(), mapper.OPENGL)
+        with self.assertRaisesRegex(ValueError, "CellDivision 'q'; known are adaptive, fixed$"):
+            add_ours(pyvista.Plotter(off_screen=True), FIRST, "height", CellDivision="q")
+
+    def test_a_warning_is_at_the_line_of_the_program(self):
+        for call in (lambda: meniscus.plot(FIRST, "height", opacity=0, off_screen=True),
+                     lambda: add_ours(pyvista.Plotter(off_screen=True), FIRST, "height",
+                                      opacity=0)):
+            with self.assertWarnsRegex(UserWarning, "can be seen") as caught:
+                call()
+            self.assertEqual(caught.filename, __file__)
 
     def test_arrays(self):
         """An array with three dimensions is a volume, with distances between its values."""

@@ -20,7 +20,7 @@ from meniscus.viewer.command import main, make_parser, make_scene
 from meniscus.viewer.reading import ReadingError
 from meniscus.viewer.window import Window
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkDoubleArray
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkFloatArray
 from vtkmodules.vtkCommonDataModel import (
     vtkImageData, vtkMultiBlockDataSet, vtkRectilinearGrid, vtkUnstructuredGrid)
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
@@ -104,8 +104,42 @@ class TestLevels(unittest.TestCase):
     def test_planes_have_one_opacity(self):
         found = levels.Levels(make_block({"z": lambda x, y, z: z}), "z", "points")
         opacity = [value for _, value in found.get_opacity()]
-        # Each plane crosses the same number of cells, but for those that lie on faces.
-        self.assertLess(max(opacity) - min(opacity), 4 * min(opacity) + 4)
+        # Each plane crosses the same number of cells; those of a block are exact in binary.
+        self.assertLess(max(opacity) - min(opacity), 1e-9 * min(opacity))
+        self.assertLess(numpy.ptp(found.volumes), 1e-9)
+
+    def test_layers_of_cells(self):
+        """Eleven layers of cells have one opacity, whether or not a bin has a value of their faces,
+        and whether values are rounded to single precision or not."""
+        for offset, precise in (0.0, True), (300.1, True), (300.1, False):
+            image = vtkImageData()
+            image.SetDimensions(12, 5, 5)
+            values = vtkDoubleArray() if precise else vtkFloatArray()
+            values.SetName("T")
+            for point in range(image.GetNumberOfPoints()):
+                values.InsertNextValue(offset + image.GetPoint(point)[0])
+            image.GetPointData().AddArray(values)
+            found = levels.Levels(image, "T", "points")
+            opacity = [value for _, value in found.get_opacity()]
+            # Rounded to 2^-16, layers overlap by up to 2^-15 of 64 / 11 bins each: 2e-4 of a bin.
+            # A tenth of contrast counts fully: 2e-3 of the opacity.
+            bound = 1e-9 if precise else 4e-3
+            self.assertLess(max(opacity) - min(opacity), bound * min(opacity), offset)
+            self.assertAlmostEqual(found.volumes.sum(), 11 * 16)
+            self.assertLess(numpy.ptp(found.volumes), bound * found.volumes.max())
+
+    def test_cells_of_one_value(self):
+        """Cell data in steps that are no multiple of a bin: no bin is left out."""
+        image, values = vtkImageData(), vtkDoubleArray()
+        image.SetDimensions(1000, 2, 2)
+        values.SetName("p")
+        for cell in range(image.GetNumberOfCells()):
+            values.InsertNextValue(cell)
+        image.GetCellData().AddArray(values)
+        found = levels.Levels(image, "p", "cells")
+        self.assertAlmostEqual(found.volumes.sum(), 999)
+        # 15.6 steps to a bin, of which those within half a bin of an end count in it.
+        self.assertLess(numpy.ptp(found.areas[1:-1]), 0.01 * found.areas[32])
 
     def test_mean_opacity(self):
         found = levels.Levels(make_block({"r": radius}), "r", "points")
@@ -116,7 +150,7 @@ class TestLevels(unittest.TestCase):
 
     def test_isovalues_divide_the_volume(self):
         found = levels.Levels(make_block({"z": lambda x, y, z: z}), "z", "points")
-        # Values are centres of bins of the width 2 / 64; a cell counts for the bin of its middle.
+        # Values are centres of bins of the width 2 / 64.
         for value, exact in zip(found.get_isovalues(), (-0.5, 0.0, 0.5)):
             self.assertAlmostEqual(value, exact, delta=1 / CELLS + 2 / levels.BINS)
 
