@@ -5,6 +5,9 @@
 #include "FlatPoolLamps.h"
 #include "VTKTestBasics.h"
 
+#include <vtkCompositeDataGeometryFilter.h>
+#include <vtkMultiBlockDataSet.h>
+
 using namespace meniscus::test;
 using namespace meniscus::test::flatpool;
 
@@ -113,6 +116,17 @@ int CountDifferent(const ByteImage& a, const ByteImage& b)
   return count;
 }
 
+/** The ball as one of several blocks that a filter joins. */
+void JoinBlocks(PoolAt& pool)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, pool.BallFilter->GetInputDataObject(0, 0));
+  blocks->SetBlock(1, vtkNew<vtkPolyData>());
+  vtkNew<vtkCompositeDataGeometryFilter> joined;
+  joined->SetInputData(blocks);
+  pool.BallFilter->SetInputConnection(joined->GetOutputPort());
+}
+
 const glm::dvec3 FarAway(5.0e5, -4.0e5, 3.0e5);
 
 /**
@@ -122,10 +136,14 @@ const glm::dvec3 FarAway(5.0e5, -4.0e5, 3.0e5);
  */
 constexpr int MostDifferent = 2;
 
-void ExpectSamePictures(double waves, const std::vector<Lamp>& lamps)
+void ExpectSamePictures(double waves, const std::vector<Lamp>& lamps, bool joined = false)
 {
   PoolAt near(glm::dvec3(0.0), waves);
   PoolAt far(FarAway, waves);
+  if (joined)
+  {
+    JoinBlocks(far);
+  }
   for (std::size_t i = 0; i < lamps.size(); ++i)
   {
     SCOPED_TRACE(i);
@@ -150,4 +168,9 @@ TEST(RefractionPassFar, FlatWater)
 TEST(RefractionPassFar, LowWaves)
 {
   ExpectSamePictures(0.02, { Distant(0.5, 0.3, 0.8), Near(0.7, -0.4, 0.8) });
+}
+
+TEST(RefractionPassFar, BlocksThatAreJoined)
+{
+  ExpectSamePictures(0.0, { Distant(0.5, 0.3, 0.8) }, true);
 }
