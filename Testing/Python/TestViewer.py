@@ -576,8 +576,9 @@ class TestCommand(FolderCase):
         writer.Write()
         self.assertEqual(reading.read_surface(name).GetNumberOfPolys(),
                          ball.GetOutput().GetNumberOfPolys())
-        self.assertEqual(self.run_command(name)[0], 1)
-        self.assertIn("no cells with a volume", self.run_command(name)[1])
+        status, errors = self.run_command(name, "--output", self.name("none.png"))
+        self.assertEqual(status, 1)
+        self.assertIn("no cells with a volume", errors)
 
     def test_without_a_display(self):
         display = os.environ.pop("DISPLAY", None)

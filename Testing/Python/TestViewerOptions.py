@@ -132,7 +132,8 @@ class TestConfig(Case):
         for text in (f"__import__('os').mkdir('{ran}')", f"$(mkdir {ran})", "--output=x.png"):
             options = self.parse(f'array = "{text}"', self.mesh)
             self.assertEqual((options.array, options.output), (text, None))
-            status, _, errors = self.run_command(self.mesh, "--config", self.name("options.toml"))
+            status, _, errors = self.run_command(
+                self.mesh, "--config", self.name("options.toml"), "--output", self.name("no.png"))
             self.assertEqual(status, 1)
             self.assertIn("has no array", errors)
         self.assertFalse(os.path.exists(ran))
