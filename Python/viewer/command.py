@@ -10,6 +10,7 @@ import math
 import os
 import sys
 
+from .. import __version__
 from ..names import BACKENDS, BLEND_MODES
 from .colors import COLOR_MAPS
 from .files import collecting_reports
@@ -33,29 +34,32 @@ _LARGEST_SIZE = 16384
 _WATER = 1.333  # index of refraction
 
 
-def _pair_of(text, separator, kind):
-    parts = [kind(part) for part in text.lower().split(separator)]
-    if len(parts) != 2:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a pair separated by '{separator}'")
-    return tuple(parts)
-
-
 def _size(text):
-    size = _pair_of(text, "x", int)
+    parts = text.lower().split("x")
+    if len(parts) != 2 or not all(part.strip().lstrip("-").isdecimal() for part in parts):
+        raise argparse.ArgumentTypeError(f"'{text}' is no size, such as 800x600")
+    size = tuple(map(int, parts))
     if min(size) < 1 or max(size) > _LARGEST_SIZE:
         raise argparse.ArgumentTypeError(f"both sizes must be from 1 to {_LARGEST_SIZE}")
     return size
 
 
+def _whole_number(text):
+    try:
+        return int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a whole number") from None
+
+
 def _count(text):
-    count = int(text)
+    count = _whole_number(text)
     if count < 1:
         raise argparse.ArgumentTypeError("at least one frame is needed")
     return count
 
 
 def _port(text):
-    port = int(text)
+    port = _whole_number(text)
     if not 0 <= port <= 65535:
         raise argparse.ArgumentTypeError("a port is a number from 0 to 65535")
     return port
@@ -78,6 +82,7 @@ def _add_look(parser):
     parser.add_argument("--config", metavar="FILE.toml",
                         help="file with options by the names of this list, and mesh; the command "
                         "line goes before, and --no-NAME leaves out the file's option NAME")
+    parser.add_argument("--version", action="version", version="meniscus " + __version__)
     parser.start_group("values, colours and opacity")
     parser.add_argument("--array", help="array to show; default: the first one")
     parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
@@ -113,7 +118,7 @@ def _add_view(parser):
     parser.add_argument("--clip", metavar="AXIS[:SHARE]",
                         help="removes the part below a share (default 0.5) of the extent along "
                         + ", ".join(AXES))
-    parser.add_argument("--step", type=int, default=0, metavar="NUMBER",
+    parser.add_argument("--step", type=_whole_number, default=0, metavar="NUMBER",
                         help="time step, from 0; negative: from the last one back")
     parser.add_argument("--water", metavar="SURFACE",
                         help="file of a refracting surface through which the volume is seen; its "

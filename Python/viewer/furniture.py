@@ -3,6 +3,8 @@
 """What helps to read a picture of a mesh: outline, axes with units, edges of the surface."""
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from typing import Any
 
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
@@ -13,6 +15,18 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
 INK = (0.1, 0.1, 0.15)
 _LINES = (0.35, 0.38, 0.45)
+
+
+def find_label_format(*ranges: Sequence[float]) -> str:
+    """Format of numbers at equal distances in these ranges, each with a lower and an upper end: of
+    3 digits, or of more, up to 8, that keep them within 1/40 of the range."""
+    digits = 3
+    for low, high in ranges:
+        largest = max(abs(low), abs(high))
+        if 0.0 < high - low < math.inf and largest < math.inf:
+            # Half a unit of the last of d digits is up to 5 * 10^-d of the number.
+            digits = max(digits, math.ceil(math.log10(200.0 * (largest / (high - low)))))
+    return f"%.{min(digits, 8)}g"
 
 
 class Furniture:
@@ -52,7 +66,6 @@ class Furniture:
         axes.SetCamera(renderer.GetActiveCamera())
         axes.SetFlyModeToOuterEdges()
         axes.SetNumberOfLabels(3)  # more overlap along a short side
-        axes.SetLabelFormat("%.3g")
         axes.SetFontFactor(1.1)
         axes.SetCornerOffset(0.04)
         axes.GetProperty().SetColor(*_LINES)
@@ -74,6 +87,7 @@ class Furniture:
         self._data = data
         self._box.SetBounds(*bounds)
         self._axes.SetBounds(*bounds)
+        self._axes.SetLabelFormat(find_label_format(*zip(bounds[::2], bounds[1::2])))
         if self.get("edges"):
             self._update_edges()
 

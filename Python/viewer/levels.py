@@ -19,8 +19,8 @@ BINS = 64
 # Share of the largest area that is added to each level's. It limits the opacity of values that
 # hardly occur to 50 times the opacity of the most frequent value.
 FLOOR = 0.02
-# If areas differ by a smaller share of the largest one, no value is that of the surroundings, and the
-# least opacity is above 0: with equal areas all values have the same.
+# If areas differ by a smaller share of the largest one, no value is that of the surroundings, and
+# the least opacity is above 0: with equal areas all values have the same.
 _EVEN = 0.1
 # Mean optical depth of a ray through the middle of a cube of the mesh's size.
 OPTICAL_DEPTH = 1.5

@@ -16,7 +16,7 @@ import numpy
 from .files import ReadingError
 
 # Options that a file cannot have.
-_LINE_ONLY = ("help", "config")
+_LINE_ONLY = ("help", "config", "version")
 
 
 class OptionParser(argparse.ArgumentParser):

@@ -16,7 +16,7 @@ from ..names import BACKENDS, BLEND_MODES, ISOSURFACE_OPACITY, MATERIAL, SHADOWE
 from .cells import drawn_leaves_of
 from .colors import COLOR_MAPS, fill_colors, find_colors, make_table
 from .curves import check_curve, fill_function, simplify
-from .furniture import Furniture
+from .furniture import Furniture, find_label_format
 from .levels import BINS, Levels
 from .reading import MeshSeries, ReadingError, arrays_of
 from .shown import Shown, choose_shown
@@ -108,7 +108,6 @@ class MeshScene:
     def _add_bar(self):
         self._turns, self._reset_at, self._zoom = 1, None, 1.0  # of reset_camera()
         self.bar = vtkScalarBarActor()
-        self.bar.SetLabelFormat("%.3g")
         self.bar.SetMaximumWidthInPixels(90)
         self.renderer.AddObserver("StartEvent", lambda *_: self._fit_to_window())
         self.bar.SetHeight(0.8)
@@ -268,6 +267,7 @@ class MeshScene:
         ends = [0.0 if abs(end) < ROUND_OFF * (high - low) else end for end in (low, high)]
         self.bar.SetLookupTable(make_table(look.GetRGBTransferFunction(), *ends))
         self.bar.SetNumberOfLabels(5 if low < high else 1)
+        self.bar.SetLabelFormat(find_label_format(ends))
         self.bar.SetTitle(self.get_title())
 
     def get_title(self):

@@ -15,7 +15,7 @@ from unittest import mock
 
 import numpy
 from meniscus.threads import run_blocks
-from meniscus.viewer import levels, pictures, reading
+from meniscus.viewer import furniture, levels, pictures, reading
 from meniscus.viewer.command import main, make_parser, make_scene
 from meniscus.viewer.reading import ReadingError
 from meniscus.viewer.window import Window
@@ -338,6 +338,21 @@ class TestCommand(FolderCase):
                               zip(margins, (beside, size[1]) * 2)]
                     self.assertLess(min(shares), 0.08)
 
+    def test_labels_differ(self):
+        for low, high, digits in ((0, 1, 3), (-1.5, 1.5, 3), (300, 311, 4), (9.5, 10, 4),
+                                  (4e6, 4e6 + 11, 8), (1e15, 1e15 + 2, 8), (3, 3, 3),
+                                  (-1e308, 1e308, 3), (0, float("inf"), 3)):
+            form = furniture.find_label_format((0, 1), (low, high))
+            self.assertEqual(form, f"%.{digits}g", (low, high))
+            if low < high < 1e15:
+                for quarter in range(5):
+                    exact = low + 0.25 * quarter * (high - low)
+                    self.assertAlmostEqual(float(form % exact), exact, delta=(high - low) / 40)
+        name = write(vtkXMLUnstructuredGridWriter(), make_block({"T": lambda x, *_: 305 + 5 * x}),
+                     self.name("warm.vtu"))
+        scene = make_scene(make_parser().parse_args([name]))
+        self.assertEqual(scene.bar.GetLabelFormat(), "%.4g")
+
     def test_labels_of_the_legend_are_not_cut_off(self):
         for width in 400, 600, 1000:
             with self.subTest(width=width):
@@ -561,8 +576,9 @@ class TestCommand(FolderCase):
         writer.Write()
         self.assertEqual(reading.read_surface(name).GetNumberOfPolys(),
                          ball.GetOutput().GetNumberOfPolys())
-        self.assertEqual(self.run_command(name)[0], 1)
-        self.assertIn("no cells with a volume", self.run_command(name)[1])
+        status, errors = self.run_command(name, "--output", self.name("none.png"))
+        self.assertEqual(status, 1)
+        self.assertIn("no cells with a volume", errors)
 
     def test_without_a_display(self):
         display = os.environ.pop("DISPLAY", None)

@@ -114,7 +114,7 @@ class TestConfig(Case):
                 ("view = [1, 2]", "--view: expected 3 arguments"),
                 ("light = 1", "light must be true or false"),
                 ("density = true", "density must be a number or text"),
-                ("size = '3'", "--size: '3' is not a pair"),
+                ("size = '3'", "--size: '3' is no size"),
                 ("size = '100000x9'", "--size: both sizes must be from 1 to 16384"),
                 ("mesh = 3", "mesh must be the name of a file"),
                 ("units = ['--output', 'x.png']", "units must not begin with '-'"),
@@ -132,7 +132,8 @@ class TestConfig(Case):
         for text in (f"__import__('os').mkdir('{ran}')", f"$(mkdir {ran})", "--output=x.png"):
             options = self.parse(f'array = "{text}"', self.mesh)
             self.assertEqual((options.array, options.output), (text, None))
-            status, _, errors = self.run_command(self.mesh, "--config", self.name("options.toml"))
+            status, _, errors = self.run_command(
+                self.mesh, "--config", self.name("options.toml"), "--output", self.name("no.png"))
             self.assertEqual(status, 1)
             self.assertIn("has no array", errors)
         self.assertFalse(os.path.exists(ran))
@@ -232,12 +233,24 @@ class TestMessages(Case):
                 (["--units", "m", "a.vtu"],
                  "meniscus demo; it goes before --units, which takes any number of values\n"),
                 (["--light"], "no mesh is named: meniscus MESH, or meniscus demo\n"),
+                (["a.vtu", "--size", "800", "600"], "--size: '800' is no size, such as 800x600"),
+                (["a.vtu", "--size", "800,600"], "'800,600' is no size"),
+                (["a.vtu", "--size", "axb"], "'axb' is no size"),
+                (["a.vtu", "--port", "web"], "--port: 'web' is not a whole number"),
+                (["a.vtu", "--orbit", "0.5"], "--orbit: '0.5' is not a whole number"),
                 (["a.vtu", "--opacity", "linear"], "--opacity: 'linear' is not a number"),
                 (["--isovalues", "a.vtu", "0.5"], "--isovalues: 'a.vtu' is not a number")):
             with contextlib.redirect_stderr(io.StringIO()) as message, \
                     self.assertRaises(SystemExit):
                 make_parser().parse(words)
             self.assertIn(expected, message.getvalue())
+
+    def test_version(self):
+        with contextlib.redirect_stdout(io.StringIO()) as output, \
+                self.assertRaises(SystemExit) as end:
+            make_parser().parse(["--version"])
+        self.assertEqual(end.exception.code, 0)
+        self.assertRegex(output.getvalue(), r"^meniscus \d+\.\d+\.\d+\n$")
 
     def test_help(self):
         """has titles, and examples that the parser takes."""
