@@ -158,6 +158,7 @@ public:
 
 vtkStandardNewMacro(vtkRefractionErrorVolume);
 meniscusInterfacePropertiesMacro(vtkRefractionErrorVolume);
+meniscusExactMembraneMacro(vtkRefractionErrorVolume);
 meniscusInterfaceTimeMacro(vtkRefractionErrorVolume);
 meniscusMembranePortMacro(vtkRefractionErrorVolume, 0);
 meniscusSetClampMacro(vtkRefractionErrorVolume, MembraneModel, int, FLAT_FACETS, CURVED);
@@ -182,18 +183,6 @@ vtkRefractionErrorVolume::vtkRefractionErrorVolume()
 
 //------------------------------------------------------------------------------
 vtkRefractionErrorVolume::~vtkRefractionErrorVolume() = default;
-
-//------------------------------------------------------------------------------
-void vtkRefractionErrorVolume::SetExactMembrane(vtkImplicitFunction* function)
-{
-  this->Interfaces->GetFirstInterface()->SetExactSurface(function);
-}
-
-//------------------------------------------------------------------------------
-vtkImplicitFunction* vtkRefractionErrorVolume::GetExactMembrane()
-{
-  return this->Interfaces->GetFirstInterface()->GetExactSurface();
-}
 
 //------------------------------------------------------------------------------
 void vtkRefractionErrorVolume::SetReferenceData(vtkPolyData* membrane)
