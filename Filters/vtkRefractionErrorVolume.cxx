@@ -121,7 +121,7 @@ bool PassAlike(const Links& a, const Links& b)
 /** Colour of an error, see vtkRefractionErrorVolume::SetColorLimits(). */
 std::array<unsigned char, 3> ColorOf(double error, const double limits[3])
 {
-  constexpr double darkest = 80.0;
+  constexpr double darkest = 80.0; // no error: the band's colour can still be told from black
   constexpr std::size_t channels[3] = { 1, 2, 0 }; // green, blue, red
   for (std::size_t band = 0; band < 3; ++band)
   {
