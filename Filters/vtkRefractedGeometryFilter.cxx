@@ -336,6 +336,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
 
 vtkStandardNewMacro(vtkRefractedGeometryFilter);
 meniscusInterfacePropertiesMacro(vtkRefractedGeometryFilter);
+meniscusExactMembraneMacro(vtkRefractedGeometryFilter);
 meniscusMembranePortMacro(vtkRefractedGeometryFilter, 1);
 
 //------------------------------------------------------------------------------
@@ -363,18 +364,6 @@ void vtkRefractedGeometryFilter::SetCamera(vtkCamera* camera)
 vtkCamera* vtkRefractedGeometryFilter::GetCamera()
 {
   return this->Camera;
-}
-
-//------------------------------------------------------------------------------
-void vtkRefractedGeometryFilter::SetExactMembrane(vtkImplicitFunction* function)
-{
-  this->Interfaces->GetFirstInterface()->SetExactSurface(function);
-}
-
-//------------------------------------------------------------------------------
-vtkImplicitFunction* vtkRefractedGeometryFilter::GetExactMembrane()
-{
-  return this->Interfaces->GetFirstInterface()->GetExactSurface();
 }
 
 //------------------------------------------------------------------------------

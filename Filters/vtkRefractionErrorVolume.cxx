@@ -121,7 +121,7 @@ bool PassAlike(const Links& a, const Links& b)
 /** Colour of an error, see vtkRefractionErrorVolume::SetColorLimits(). */
 std::array<unsigned char, 3> ColorOf(double error, const double limits[3])
 {
-  constexpr double darkest = 80.0;
+  constexpr double darkest = 80.0; // no error: the band's colour can still be told from black
   constexpr std::size_t channels[3] = { 1, 2, 0 }; // green, blue, red
   for (std::size_t band = 0; band < 3; ++band)
   {
@@ -158,6 +158,7 @@ public:
 
 vtkStandardNewMacro(vtkRefractionErrorVolume);
 meniscusInterfacePropertiesMacro(vtkRefractionErrorVolume);
+meniscusExactMembraneMacro(vtkRefractionErrorVolume);
 meniscusInterfaceTimeMacro(vtkRefractionErrorVolume);
 meniscusMembranePortMacro(vtkRefractionErrorVolume, 0);
 meniscusSetClampMacro(vtkRefractionErrorVolume, MembraneModel, int, FLAT_FACETS, CURVED);
@@ -182,18 +183,6 @@ vtkRefractionErrorVolume::vtkRefractionErrorVolume()
 
 //------------------------------------------------------------------------------
 vtkRefractionErrorVolume::~vtkRefractionErrorVolume() = default;
-
-//------------------------------------------------------------------------------
-void vtkRefractionErrorVolume::SetExactMembrane(vtkImplicitFunction* function)
-{
-  this->Interfaces->GetFirstInterface()->SetExactSurface(function);
-}
-
-//------------------------------------------------------------------------------
-vtkImplicitFunction* vtkRefractionErrorVolume::GetExactMembrane()
-{
-  return this->Interfaces->GetFirstInterface()->GetExactSurface();
-}
 
 //------------------------------------------------------------------------------
 void vtkRefractionErrorVolume::SetReferenceData(vtkPolyData* membrane)

@@ -5,24 +5,16 @@
 #include "Common/StandardFloatingPoint.h"
 #include "Filters/Common/Accessors.h"
 #include "Rendering/Pass/LightForNormals.h"
-#include "Rendering/Pass/MembraneComposer.h"
 #include "Rendering/Pass/ObjectShader.h"
 #include "Rendering/Pass/PictureSize.h"
-#include "Rendering/Pass/RefractionTarget.h"
-#include "Rendering/Pass/ShadowCasters.h"
-#include "Rendering/Pass/TrueSpaceLighting.h"
 #include "Rendering/Pass/ViewBounds.h"
 #include "Rendering/Property/MediumUniforms.h"
-#include "Rendering/RefractionPassList.h"
-#include "Volume/Optics/RefractionMedium.h"
+#include "Rendering/RefractionPassInternals.h"
 #include "Volume/Refracted/RayLegs.h"
 
 #include "vtkRefractedGeometryFilter.h"
 
-#include "vtkActor.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkOpaquePass.h"
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -35,17 +27,11 @@
 #include "vtkRenderStepsPass.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
-#include "vtkSmartPointer.h"
 #include "vtkTetrahedraRayCastMapper.h"
-#include "vtkTexture.h"
 #include "vtkTextureObject.h"
-#include "vtkTimeStamp.h"
-#include "vtkTranslucentPass.h"
 #include "vtkVolume.h"
 
 #include <algorithm>
-#include <iterator>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -55,58 +41,6 @@ meniscusSetClampMacro(vtkRefractionPass, ReflectanceModel, int, FRESNEL, MIRROR)
 meniscusSetClampMacro(vtkRefractionPass, NumberOfLightCells, int, 0, 4000000);
 meniscusSetClampMacro(vtkRefractionPass, Lighting, int, VIRTUAL_SPACE, TRUE_SPACE);
 meniscusSetClampMacro(vtkRefractionPass, MediumModel, int, EXPONENTIAL, LINEAR);
-
-//------------------------------------------------------------------------------
-class vtkRefractionPass::vtkInternals
-{
-public:
-  enum class Stages
-  {
-    Objects,
-    Mirrored,
-    Membrane
-  };
-
-  meniscus::RefractionList Refractions;
-  vtkSmartPointer<vtkRenderPass> ScenePass;
-  vtkSmartPointer<vtkTexture> Reflection;
-  vtkNew<vtkOpaquePass> Opaque;
-  vtkNew<vtkTranslucentPass> Translucent;
-  /** Draws the membrane's mapper, independently of the property of the membrane's actor. */
-  vtkNew<vtkActor> Surface;
-  Stages Stage = Stages::Objects;
-
-  meniscus::RefractionMedium Medium;
-  meniscus::RefractionTarget Objects;
-  meniscus::RefractionTarget Mirrored;
-  meniscus::RefractionTarget Membrane;
-  meniscus::MembraneComposer Composer;
-  meniscus::TrueSpaceLighting Lighting;
-  /** Buffers of the objects that are lit in true space, while they are drawn. */
-  meniscus::LocalPlaces Places;
-  /** Last time that an object's shader changed. */
-  vtkTimeStamp ShaderTime;
-  std::string LastLightWarning;
-  vtkMTimeType MediumFaultTime = 0;
-  vtkTypeInt64 SkippedLights = 0;
-
-  vtkTypeInt64 Drawn = 0;
-  vtkTypeInt64 Skipped = 0;
-
-  /** Tables that are active; null for none. */
-  meniscus::WaveLight* Tables = nullptr;
-  vtkTypeInt64 LightUpdates = 0;
-
-  /** Objects that hide light, by the membrane in front of them. */
-  std::map<vtkActor*, meniscus::ShadowCasters> Casters;
-  /** Those whose tables are active; null for none. */
-  meniscus::ShadowCasters* Shadows = nullptr;
-  vtkTypeInt64 ShadowUpdates = 0;
-
-  void ActivateTables(
-    const meniscus::Refraction* refraction, vtkShaderProgram* program, const glm::dvec3& origin);
-  void ForgetCasters(bool areWanted);
-};
 
 meniscusObjectMacro(vtkRefractionPass, ScenePass, vtkRenderPass, Internals->ScenePass);
 meniscusGetInternalMacro(vtkRefractionPass, int, NumberOfRefractions(), Refractions.All.size());
@@ -121,56 +55,6 @@ meniscusGetInternalMacro(
 meniscusGetInternalMacro(
   vtkRefractionPass, vtkTypeInt64, NumberOfSkippedLights() const, SkippedLights);
 meniscusGetInternalMacro(vtkRefractionPass, vtkMTimeType, ShaderStageMTime(), ShaderTime);
-
-//------------------------------------------------------------------------------
-/**
- * Activates the tables of an object, and of what hides light from it, in place of another object's;
- * null for none.
- * @param origin point that the object's places are relative to.
- */
-void vtkRefractionPass::vtkInternals::ActivateTables(
-  const meniscus::Refraction* refraction, vtkShaderProgram* program, const glm::dvec3& origin)
-{
-  meniscus::WaveLight* tables =
-    refraction && refraction->ReadsTables ? refraction->Waves.get() : nullptr;
-  meniscus::ShadowCasters* shadows =
-    refraction && refraction->IsLitInTrueSpace && refraction->HasShadows
-    ? &this->Casters[refraction->Membrane]
-    : nullptr;
-  if (this->Tables && tables != this->Tables)
-  {
-    this->Tables->Deactivate();
-  }
-  if (this->Shadows && shadows != this->Shadows)
-  {
-    this->Shadows->Deactivate();
-  }
-  this->Tables = tables;
-  this->Shadows = shadows;
-  if (tables)
-  {
-    auto* object = static_cast<vtkActor*>(refraction->Object.Get());
-    tables->Activate(program, object->GetProperty()->GetRepresentation() == VTK_SURFACE, origin);
-  }
-  if (shadows)
-  {
-    const auto number = static_cast<int>(refraction - this->Refractions.All.data());
-    shadows->Activate(program, number, origin);
-  }
-}
-
-//------------------------------------------------------------------------------
-/** Forgets what hides light behind membranes that are no longer drawn, or all if it is unwanted. */
-void vtkRefractionPass::vtkInternals::ForgetCasters(bool areWanted)
-{
-  const std::vector<vtkActor*> membranes = this->Refractions.ListMembranes();
-  for (auto entry = this->Casters.begin(); entry != this->Casters.end();)
-  {
-    const bool isKept =
-      areWanted && std::find(membranes.begin(), membranes.end(), entry->first) != membranes.end();
-    entry = isKept ? std::next(entry) : this->Casters.erase(entry);
-  }
-}
 
 //------------------------------------------------------------------------------
 vtkRefractionPass::vtkRefractionPass()
@@ -513,106 +397,6 @@ void vtkRefractionPass::Compose(
   if (!error.empty())
   {
     vtkErrorMacro(<< error);
-  }
-}
-
-//------------------------------------------------------------------------------
-/** Takes the lights over for the objects of a membrane; reports those that are left out. */
-void vtkRefractionPass::UpdateLighting(vtkRenderer* renderer, vtkActor* membrane)
-{
-  vtkInternals& internals = *this->Internals;
-  if (this->Lighting != TRUE_SPACE)
-  {
-    return;
-  }
-  const std::string warning = internals.Lighting.Update(renderer, membrane);
-  internals.SkippedLights += internals.Lighting.GetNumberOfSkippedLights();
-  if (!warning.empty() && warning != internals.LastLightWarning)
-  {
-    vtkWarningMacro(<< warning << ".");
-  }
-  internals.LastLightWarning = warning;
-  const bool hasShadows = this->Shadows && this->UpdateShadows(renderer, membrane);
-  for (meniscus::Refraction& refraction : internals.Refractions.All)
-  {
-    if (refraction.Membrane == membrane && refraction.IsLitInTrueSpace)
-    {
-      refraction.PreparePlaces(renderer, internals.Places);
-      this->UpdateWaves(renderer, refraction);
-      if (refraction.HasShadows != hasShadows)
-      {
-        refraction.HasShadows = hasShadows;
-        internals.ShaderTime.Modified();
-      }
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-/** Takes over what casts shadows behind a membrane. Returns false if nothing does. */
-bool vtkRefractionPass::UpdateShadows(vtkRenderer* renderer, vtkActor* membrane)
-{
-  vtkInternals& internals = *this->Internals;
-  std::vector<meniscus::ShadowCasters::Caster> found;
-  int number = 0;
-  for (const meniscus::Refraction& refraction : internals.Refractions.All)
-  {
-    if (refraction.Membrane == membrane && refraction.CastsShadows())
-    {
-      refraction.Filter->Update();
-      found.push_back({ number, refraction.Filter->GetInputDataObject(0, 0) });
-    }
-    ++number;
-  }
-  meniscus::ShadowCasters& casters = internals.Casters[membrane];
-  const vtkTypeInt64 before = casters.GetNumberOfUpdates();
-  casters.Update(found);
-  internals.ShadowUpdates += casters.GetNumberOfUpdates() - before;
-  if (casters.IsEmpty())
-  {
-    return false;
-  }
-  const std::string error =
-    casters.Upload(static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow()));
-  if (!error.empty())
-  {
-    vtkErrorMacro("Shadows are not drawn: " << error << ".");
-  }
-  return error.empty();
-}
-
-//------------------------------------------------------------------------------
-/** Computes the light on an object through waves; its shader is made again if it begins or ends. */
-void vtkRefractionPass::UpdateWaves(vtkRenderer* renderer, meniscus::Refraction& refraction)
-{
-  vtkInternals& internals = *this->Internals;
-  const std::vector<meniscus::WaveSource> sources =
-    internals.Lighting.ListWaveSources(refraction.Filter);
-  bool readsTables = false;
-  if (!sources.empty() && refraction.Object->GetVisibility())
-  {
-    refraction.Waves =
-      refraction.Waves ? refraction.Waves : std::make_shared<meniscus::WaveLight>();
-    meniscus::WaveLight& waves = *refraction.Waves;
-    const vtkTypeInt64 before = waves.GetNumberOfUpdates();
-    waves.Update(refraction.Filter, sources, this->NumberOfLightCells);
-    internals.LightUpdates += waves.GetNumberOfUpdates() - before;
-    if (!waves.IsEmpty())
-    {
-      const std::string error =
-        waves.Upload(static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow()),
-          refraction.GetMapper()->GetInput());
-      readsTables = error.empty();
-      if (!readsTables)
-      {
-        vtkErrorMacro("The light through waves is not drawn: " << error << ".");
-      }
-    }
-  }
-  if (readsTables != refraction.ReadsTables)
-  {
-    refraction.ReadsTables = readsTables;
-    internals.ShaderTime.Modified();
   }
 }
 

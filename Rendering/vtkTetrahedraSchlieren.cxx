@@ -47,6 +47,57 @@ struct RayKey
   }
 };
 
+/** Rows of an image, and the number of its columns. */
+struct RowsOfImage
+{
+  std::size_t First;
+  std::size_t End;
+  std::size_t Width;
+};
+
+/** Follows the rays of some rows at the same time. `raster` knows which of them meet the mesh. */
+void CastRows(const meniscus::GradedRayWalk& walk, const meniscus::SchlierenRays& rays,
+  const meniscus::EntryRaster& raster, const RowsOfImage& part,
+  meniscus::GradedRayStatistics& statistics, meniscus::LightOfImage& light)
+{
+  // Rays are numbered column by column.
+  const std::size_t rows = part.End - part.First;
+  const auto numberOf = [&](int column, int row)
+  { return static_cast<std::size_t>(column) * rows + static_cast<std::size_t>(row) - part.First; };
+  const auto pixelOf = [&](std::size_t number)
+  { return glm::dvec2(number / rows, part.First + number % rows); };
+  meniscus::EntryFaces faces;
+  std::vector<std::size_t> numbers;
+  if (raster.IsUsable())
+  {
+    // The other rays miss the mesh.
+    faces = raster.Collect({ 0, part.First }, { part.Width, part.End }, numberOf);
+    numbers = faces.KeepRaysWithFaces();
+  }
+  else
+  {
+    numbers.resize(rows * part.Width);
+    std::iota(numbers.begin(), numbers.end(), std::size_t{ 0 });
+  }
+  std::vector<meniscus::GradedRay> ofPart;
+  ofPart.reserve(numbers.size());
+  for (const std::size_t number : numbers)
+  {
+    const glm::dvec2 pixel = pixelOf(number);
+    ofPart.push_back({ rays.GetOrigin(pixel), rays.GetDirection(pixel) });
+  }
+  std::vector<meniscus::GradedRayResult> results(ofPart.size());
+  walk.WalkAll(ofPart, statistics, results.data(), meniscus::BestInstructionSet(),
+    raster.IsUsable() ? &faces : nullptr);
+  for (std::size_t i = 0; i < results.size(); ++i)
+  {
+    const std::size_t number = numbers[i];
+    const std::size_t pixel = (part.First + number % rows) * part.Width + number / rows;
+    light.States[pixel] = results[i].State;
+    light.Behind[pixel] = rays.Measure(pixelOf(number), results[i]);
+  }
+}
+
 }
 
 /** The light of the last image. */
@@ -155,43 +206,8 @@ bool vtkTetrahedraSchlieren::UpdateRays()
   const meniscus::EntryRaster raster = this->Medium->DrawBoundary(rays.GetImage());
   std::vector<meniscus::GradedRayStatistics> ofRows(height);
   // The rays of a block of pixels, which are in the same cells, go on at the same time.
-  const auto castBlock = [&](std::size_t firstRow, std::size_t endRow)
-  {
-    const std::size_t rows = endRow - firstRow;
-    const auto numberOf = [rows, firstRow](int column, int row)
-    { return static_cast<std::size_t>(column) * rows + static_cast<std::size_t>(row) - firstRow; };
-    const auto pixelOf = [rows, firstRow](std::size_t number)
-    { return glm::dvec2(number / rows, firstRow + number % rows); };
-    meniscus::EntryFaces faces;
-    std::vector<std::size_t> numbers;
-    if (raster.IsUsable())
-    {
-      // The other rays miss the mesh.
-      faces = raster.Collect({ 0, firstRow }, { width, endRow }, numberOf);
-      numbers = faces.KeepRaysWithFaces();
-    }
-    else
-    {
-      numbers.resize(rows * width);
-      std::iota(numbers.begin(), numbers.end(), std::size_t{ 0 });
-    }
-    std::vector<meniscus::GradedRay> ofBlock;
-    ofBlock.reserve(numbers.size());
-    for (const std::size_t number : numbers)
-    {
-      const glm::dvec2 pixel = pixelOf(number);
-      ofBlock.push_back({ rays.GetOrigin(pixel), rays.GetDirection(pixel) });
-    }
-    std::vector<meniscus::GradedRayResult> results(ofBlock.size());
-    walk.WalkAll(ofBlock, ofRows[firstRow], results.data(), meniscus::BestInstructionSet(),
-      raster.IsUsable() ? &faces : nullptr);
-    for (std::size_t i = 0; i < results.size(); ++i)
-    {
-      const std::size_t number = numbers[i];
-      const std::size_t pixel = (firstRow + number % rows) * width + number / rows;
-      internals.Light.States[pixel] = results[i].State;
-      internals.Light.Behind[pixel] = rays.Measure(pixelOf(number), results[i]);
-    }
+  const auto castBlock = [&](std::size_t firstRow, std::size_t endRow) {
+    CastRows(walk, rays, raster, { firstRow, endRow, width }, ofRows[firstRow], internals.Light);
   };
   if (!this->RunRows(castBlock, meniscus::ShareOfMedium, meniscus::ShareOfRays))
   {

@@ -146,9 +146,7 @@ FrameTime VolumeComparison::TimeSteady(Arena& arena, int view) const
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkVolumeProperty> VolumeComparison::PropertyOf(FunctionKind kind) const
 {
-  double range[2];
-  this->Grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-  return MakeProperty(kind, range, DiagonalOf(this->Grid->GetBounds()));
+  return MakeProperty(kind, this->Grid, DiagonalOf(this->Grid->GetBounds()));
 }
 
 //------------------------------------------------------------------------------

@@ -68,11 +68,9 @@ public:
     : Mesh(mesh)
     , Scene(options.Width, options.Height)
   {
-    double range[2];
-    mesh->GetPointData()->GetScalars()->GetFiniteRange(range);
     FunctionKind kind = FunctionKind::Smooth;
     FindFunctionKind(options.Function, kind);
-    this->Property = MakeProperty(kind, range, DiagonalOf(mesh->GetBounds()));
+    this->Property = MakeProperty(kind, mesh, DiagonalOf(mesh->GetBounds()));
     this->Mapper = vtkTetrahedraRayCastMapper::SafeDownCast(
       MakeOurs(vtkTetrahedraRayCastMapper::NATIVE, "").Make());
     this->Mapper->SetInputData(mesh);

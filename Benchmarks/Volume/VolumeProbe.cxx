@@ -155,9 +155,7 @@ int RunProbe(const Contestant& contestant, const VolumeOptions& options)
   MapperPointer mapper = contestant.Make();
   mapper->SetInputDataObject(small);
   scene.SetMapper(mapper);
-  double range[2];
-  grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-  const auto property = MakeProperty(contestant.Function, range, DiagonalOf(grid->GetBounds()));
+  const auto property = MakeProperty(contestant.Function, grid, DiagonalOf(grid->GetBounds()));
   ApplyMode(options.Mode, grid, mapper, property);
   scene.SetProperty(property);
   LookAt(scene.GetRenderer(), small->GetBounds(), 20.0, 30.0);

@@ -81,10 +81,8 @@ public:
     , Mesh(mesh)
     , Backend(backend)
   {
-    double range[2];
-    mesh->GetPointData()->GetScalars()->GetFiniteRange(range);
     const auto property =
-      test::MakeProperty(test::FunctionKind::Smooth, range, test::DiagonalOf(mesh->GetBounds()));
+      test::MakeProperty(test::FunctionKind::Smooth, mesh, test::DiagonalOf(mesh->GetBounds()));
     property->SetShade(lit);
     this->Scene.SetProperty(property);
     test::LookAt(this->Scene.GetRenderer(), mesh->GetBounds(), 30.0, 20.0);

@@ -43,6 +43,17 @@
     return this->Interfaces->GetFirstInterface()->GetInteriorIndexOfRefraction();                  \
   }
 
+/** Defines SetExactMembrane() and GetExactMembrane(), the exact surface of the first interface. */
+#define meniscusExactMembraneMacro(className)                                                      \
+  void className::SetExactMembrane(vtkImplicitFunction* function)                                  \
+  {                                                                                                \
+    this->Interfaces->GetFirstInterface()->SetExactSurface(function);                              \
+  }                                                                                                \
+  vtkImplicitFunction* className::GetExactMembrane()                                               \
+  {                                                                                                \
+    return this->Interfaces->GetFirstInterface()->GetExactSurface();                               \
+  }
+
 /** Defines GetMTime() of a class that depends on its members and on the list of interfaces. */
 #define meniscusInterfaceTimeMacro(className)                                                      \
   vtkMTimeType className::GetMTime()                                                               \

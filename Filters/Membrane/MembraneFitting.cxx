@@ -15,6 +15,8 @@ namespace meniscus
 namespace
 {
 
+// Newton's method takes a few steps to a surface that the points are near to. Where the function is
+// not the surface's, more would not lead to it either.
 constexpr int MostSteps = 50;
 
 // Newton's method has converged when a step is below the rounding of the point's coordinates.

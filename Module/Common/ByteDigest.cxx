@@ -63,7 +63,7 @@ void AddPiece(const unsigned char* bytes, std::size_t pairs, PolynomialSum& dige
     sums[0] += ProductOfPair(bytes + pair * PairBytes, Keys.Words + 2 * pair);
   }
   const unsigned __int128 sum = sums[0] + sums[1];
-  constexpr int third = 43;
+  constexpr int third = 43; // bits: three coefficients have all 128 of the sum
   constexpr std::uint64_t mask = (std::uint64_t{ 1 } << third) - 1;
   digest.AddCoefficient(static_cast<std::uint64_t>(sum) & mask);
   digest.AddCoefficient(static_cast<std::uint64_t>(sum >> third) & mask);

@@ -13,6 +13,7 @@ namespace meniscus
 namespace
 {
 
+/** Interfaces that the shader has room for; it leaves out the reflections at further ones. */
 constexpr int LargestNumber = 16;
 
 }

@@ -6,10 +6,10 @@
  */
 #pragma once
 
+#include "SceneParts.h"
 #include "TestMeshes.h"
 #include "TestTransferFunctions.h"
 #include "VolumeScene.h"
-#include "WaterParts.h"
 
 class vtkImageData;
 class vtkTetrahedraRayCastMapper;

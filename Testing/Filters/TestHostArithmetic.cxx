@@ -10,12 +10,8 @@ TEST(HostArithmetic, RefractedGeometryIsTheSame)
 {
   const auto geometry = MakeGrid(12, 40.0, -20.0);
   const auto membrane = MakeGrid(9, 200.0, 0.0);
-  for (vtkIdType i = 0; i < membrane->GetNumberOfPoints(); ++i)
-  {
-    double point[3];
-    membrane->GetPoint(i, point);
-    membrane->GetPoints()->SetPoint(i, point[0], std::sin(0.05 * point[0]), point[2]);
-  }
+  MapPoints(membrane,
+    [](const glm::dvec3& point) { return glm::dvec3(point.x, std::sin(0.05 * point.x), point.z); });
   const auto find = [&geometry, &membrane]()
   {
     const auto filter = MakeAllImages(geometry, membrane);

@@ -112,11 +112,9 @@ TEST(RefractedLight, CellsCutByTheMembraneHaveTheLightOfTheirParts)
   triangles->SetInputData(MakeGrid(41, 60.0, 0.0));
   triangles->Update();
   vtkPolyData* slope = triangles->GetOutput();
-  for (vtkIdType i = 0; i < slope->GetNumberOfPoints(); ++i)
-  {
-    const glm::dvec3 place = PointOf(slope, i);
-    slope->GetPoints()->SetPoint(i, place.x, 0.31 * place.x + 0.17 * place.z + 0.1, place.z);
-  }
+  MapPoints(slope,
+    [](const glm::dvec3& place)
+    { return glm::dvec3(place.x, 0.31 * place.x + 0.17 * place.z + 0.1, place.z); });
   const glm::dvec3 sun = glm::normalize(glm::dvec3(0.3, 1.0, 0.2));
   auto filter = MakeLight(slope, MakeFlatMembrane(), sun);
   filter->LightVectorsOn();
@@ -229,32 +227,22 @@ TEST(RefractedLight, WorkIsDoneWhereItsInputChanges)
 TEST(RefractedLight, BadInput)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto grid = MakeGrid(3, 60.0, -20.0);
+  const auto empty = vtkSmartPointer<vtkPolyData>::New();
+  const glm::dvec3 sun(0.0, 1.0, 0.0);
+  const auto countErrors = [](vtkAlgorithm* filter) { return UpdateAndObserve(filter)->Errors; };
   for (const glm::dvec3& light : { glm::dvec3(0.0), glm::dvec3(nan, 1.0, 0.0),
          glm::dvec3(0.0, std::numeric_limits<double>::infinity(), 0.0) })
   {
-    auto filter = MakeLight(MakeGrid(3, 60.0, -20.0), MakeFlatMembrane(), light);
-    auto messages = UpdateAndObserve(filter);
-    EXPECT_GT(messages->Errors, 0);
+    EXPECT_GT(countErrors(MakeLight(grid, MakeFlatMembrane(), light)), 0);
   }
-  {
-    auto filter = MakeLight(MakeGrid(3, 60.0, -20.0), MakeFlatMembrane(), { 0.0, 1.0, 0.0 });
-    filter->SetInteriorIndexOfRefraction(-1.0);
-    auto messages = UpdateAndObserve(filter);
-    EXPECT_GT(messages->Errors, 0);
-  }
-  {
-    auto filter =
-      MakeLight(MakeGrid(3, 60.0, -20.0), vtkSmartPointer<vtkPolyData>::New(), { 0.0, 1.0, 0.0 });
-    auto messages = UpdateAndObserve(filter);
-    EXPECT_GT(messages->Errors, 0);
-  }
-  {
-    auto filter =
-      MakeLight(vtkSmartPointer<vtkPolyData>::New(), MakeFlatMembrane(), { 0.0, 1.0, 0.0 });
-    auto messages = UpdateAndObserve(filter);
-    EXPECT_EQ(messages->Errors, 0);
-    EXPECT_EQ(OfCells(filter)->GetNumberOfTuples(), 0);
-  }
+  const auto badIndex = MakeLight(grid, MakeFlatMembrane(), sun);
+  badIndex->SetInteriorIndexOfRefraction(-1.0);
+  EXPECT_GT(countErrors(badIndex), 0);
+  EXPECT_GT(countErrors(MakeLight(grid, empty, sun)), 0);
+  const auto ofNothing = MakeLight(empty, MakeFlatMembrane(), sun);
+  EXPECT_EQ(countErrors(ofNothing), 0);
+  EXPECT_EQ(OfCells(ofNothing)->GetNumberOfTuples(), 0);
   {
     // A cell without area, one whose points do not exist, a line, a point that is not finite.
     auto broken = MakePoints({ { 0, -20, 0 }, { 5, -20, 0 }, { 5, -20, 5 }, { nan, -20, 0 } });
@@ -267,8 +255,8 @@ TEST(RefractedLight, BadInput)
     lines->InsertNextCell({ 0, 1 });
     broken->SetPolys(polys);
     broken->SetLines(lines);
-    auto filter = MakeLight(broken, MakeFlatMembrane(), { 0.0, 1.0, 0.0 });
-    auto messages = UpdateAndObserve(filter);
+    auto filter = MakeLight(broken, MakeFlatMembrane(), sun);
+    UpdateAndObserve(filter);
     ASSERT_EQ(OfCells(filter)->GetNumberOfTuples(), 5);
     EXPECT_EQ(OfCells(filter)->GetComponent(0, 0), 0.0);
     EXPECT_NEAR(OfCells(filter)->GetComponent(1, 0), MakeTransmittance(1.0), Parallel);

@@ -385,11 +385,7 @@ TEST(TruePositions, DepthsAreApparentOpticalOrGeometric)
         // A second surface far below, which the ray does not reach.
         auto bottom = vtkSmartPointer<vtkPolyData>::New();
         bottom->DeepCopy(membrane);
-        for (vtkIdType i = 0; i < bottom->GetNumberOfPoints(); ++i)
-        {
-          const glm::dvec3 point = PointOf(bottom, i);
-          bottom->GetPoints()->SetPoint(i, point[0], -100.0, point[2]);
-        }
+        MapPoints(bottom, [](const glm::dvec3& p) { return glm::dvec3(p.x, -100.0, p.z); });
         filter->AddMembraneData(bottom);
         filter->GetInterfaces()->AddInterface(scale * Water, 1.5);
       }

@@ -36,16 +36,10 @@ double AddBlackSquare(vtkRenderer* renderer, double offset)
   {
     center[axis] = camera->GetPosition()[axis] + depth * forward[axis];
   }
-  vtkNew<vtkPlaneSource> source;
-  source->SetOrigin(-9.0, -9.0, 0.0);
-  source->SetPoint1(9.0, -9.0, 0.0);
-  source->SetPoint2(-9.0, 9.0, 0.0);
+  const auto source = MakePlane(9.0, 0.0, 1);
   source->SetCenter(center);
   source->SetNormal(forward);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(source->GetOutputPort());
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
+  const auto actor = MakeActor(source->GetOutputPort());
   actor->GetProperty()->SetLighting(false);
   actor->GetProperty()->SetColor(0.0, 0.0, 0.0);
   renderer->AddActor(actor);

@@ -4,6 +4,7 @@
 
 #include "ReferenceImage.h"
 #include "ReferenceOptics.h"
+#include "SceneParts.h"
 #include "TestMeshes.h"
 #include "TestTransferFunctions.h"
 #include "VTKTestBasics.h"

@@ -156,18 +156,6 @@ Arrays DividedTetrahedron(RandomNumbers& random)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-void MapPoints(vtkUnstructuredGrid* grid, const std::function<glm::dvec3(glm::dvec3)>& map)
-{
-  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
-  {
-    const double* x = grid->GetPoint(p);
-    const glm::dvec3 moved = map(glm::dvec3(x[0], x[1], x[2]));
-    grid->GetPoints()->SetPoint(p, &moved[0]);
-  }
-  grid->GetPoints()->Modified();
-}
-
-//------------------------------------------------------------------------------
 double InvertedShare(vtkUnstructuredGrid* grid)
 {
   const Arrays arrays(grid);

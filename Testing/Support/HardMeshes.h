@@ -11,9 +11,6 @@
 namespace meniscus::test
 {
 
-/** Replaces every point by the function's value at it. */
-void MapPoints(vtkUnstructuredGrid* grid, const std::function<glm::dvec3(glm::dvec3)>& map);
-
 /** Fraction of cells whose volume has another sign than most cells'. */
 double InvertedShare(vtkUnstructuredGrid* grid);
 

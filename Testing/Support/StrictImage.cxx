@@ -17,6 +17,8 @@ StrictDifference CompareStrictly(const ByteImage& a, const ByteImage& b, int thr
   result.SameSize = a.Width == b.Width && a.Height == b.Height && a.Rgb.size() == b.Rgb.size();
   if (!result.SameSize)
   {
+    result.Largest = 255;
+    result.PixelsBeyond = std::max(a.Rgb.size(), b.Rgb.size()) / 3;
     return result;
   }
   result.Image = a;

@@ -10,7 +10,7 @@ namespace meniscus::test
 /**
  * Difference of two 8-bit images in grey levels, each pixel compared with the same pixel: without
  * shifts, averaging or allowance (VTK's own comparison accepts an offset of 50 levels of a whole
- * image).
+ * image). Images of different sizes differ completely.
  */
 struct StrictDifference
 {

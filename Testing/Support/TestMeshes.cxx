@@ -236,33 +236,21 @@ void Jitter(vtkUnstructuredGrid* grid, double amount, unsigned int seed)
   // std::uniform_real_distribution is not used: its values may differ between libraries.
   std::mt19937 random(seed);
   const auto draw = [&random, amount]() { return amount * (random() / 2147483648.0 - 1.0); };
-  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
-  {
-    double x[3];
-    grid->GetPoint(i, x);
-    for (double& value : x)
+  MapPoints(grid,
+    [&draw](const glm::dvec3& at)
     {
-      value += draw();
-    }
-    grid->GetPoints()->SetPoint(i, x);
-  }
-  grid->GetPoints()->Modified();
+      const double x = draw();
+      const double y = draw();
+      return at + glm::dvec3(x, y, draw());
+    });
 }
 
 //------------------------------------------------------------------------------
 void TransformPoints(vtkUnstructuredGrid* grid, const std::array<double, 3>& offset, double scale)
 {
-  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
-  {
-    double x[3];
-    grid->GetPoint(i, x);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      x[axis] = scale * (x[axis] + offset[axis]);
-    }
-    grid->GetPoints()->SetPoint(i, x);
-  }
-  grid->GetPoints()->Modified();
+  MapPoints(grid,
+    [&](const glm::dvec3& at)
+    { return scale * (at + glm::dvec3(offset[0], offset[1], offset[2])); });
 }
 
 //------------------------------------------------------------------------------

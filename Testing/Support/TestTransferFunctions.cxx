@@ -143,6 +143,15 @@ vtkSmartPointer<vtkVolumeProperty> MakeProperty(
   return property;
 }
 
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkVolumeProperty> MakeProperty(
+  FunctionKind kind, vtkDataSet* mesh, double diagonal)
+{
+  double range[2];
+  mesh->GetPointData()->GetScalars()->GetFiniteRange(range);
+  return MakeProperty(kind, range, diagonal);
+}
+
 void SetPoints(vtkPiecewiseFunction* function, const OpacityNodes& nodes)
 {
   function->RemoveAllPoints();

@@ -22,6 +22,9 @@ enum class FunctionKind
  */
 vtkSmartPointer<vtkVolumeProperty> MakeProperty(
   FunctionKind kind, const double range[2], double diagonal);
+/** The same over the range of a mesh's scalars. */
+vtkSmartPointer<vtkVolumeProperty> MakeProperty(
+  FunctionKind kind, vtkDataSet* mesh, double diagonal);
 
 /** Gives a property a material that shows all three terms of Phong's model. */
 void SetMaterial(vtkVolumeProperty* property, bool shade = true);

@@ -4,7 +4,8 @@
 
 /** @file
  * Headers of VTK that most programs of the tests use, those of MathBasics.h, and
- * PointOf(), TupleOf(), ValuesOf() and MakeArray().
+ * PointOf(), TupleOf(), MapPoints(), MakeBlocks(), ValuesOf() and
+ * MakeArray().
  */
 
 #include "MathBasics.h"
@@ -82,6 +83,31 @@ glm::dvec3 TupleOf(const Array& array, vtkIdType i)
   glm::dvec3 tuple;
   array->GetTuple(i, &tuple.x);
   return tuple;
+}
+
+/** Moves all points of a data set to a function of their places. */
+template <typename PointSet, typename Map>
+void MapPoints(const PointSet& set, const Map& map)
+{
+  vtkPoints* points = set->GetPoints();
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    const glm::dvec3 moved = map(PointOf(points, i));
+    points->SetPoint(i, &moved.x);
+  }
+  points->Modified();
+}
+
+/** A data set of blocks. */
+template <typename Data = vtkSmartPointer<vtkDataObject>>
+vtkSmartPointer<vtkMultiBlockDataSet> MakeBlocks(const std::vector<Data>& parts)
+{
+  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (const auto& part : parts)
+  {
+    blocks->SetBlock(blocks->GetNumberOfBlocks(), part);
+  }
+  return blocks;
 }
 
 /** The values of an array, one component after the other; none if the array is null. */

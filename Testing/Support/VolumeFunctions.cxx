@@ -69,8 +69,6 @@ VolumeFunction ManySteps(Builder builder)
 //------------------------------------------------------------------------------
 std::vector<NamedFunction> UsualFunctions(vtkUnstructuredGrid* grid)
 {
-  double range[2];
-  grid->GetPointData()->GetScalars()->GetFiniteRange(range);
   const double diagonal = DiagonalOf(grid->GetBounds());
   const std::pair<const char*, FunctionKind> kinds[4] = { { "smooth", FunctionKind::Smooth },
     { "peaked", FunctionKind::Peaked }, { "opaque", FunctionKind::Opaque },
@@ -78,7 +76,7 @@ std::vector<NamedFunction> UsualFunctions(vtkUnstructuredGrid* grid)
   std::vector<NamedFunction> functions;
   for (const auto& kind : kinds)
   {
-    const auto property = MakeProperty(kind.second, range, diagonal);
+    const auto property = MakeProperty(kind.second, grid, diagonal);
     functions.push_back({ kind.first, ToReference(property).GetNodes() });
   }
   return functions;

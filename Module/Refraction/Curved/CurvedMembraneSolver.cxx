@@ -22,6 +22,8 @@ namespace
 constexpr int MostPatches = 8;
 constexpr int MostFacets = 64;
 
+// A search from the middle of a patch, where nothing is known: steps of Newton's method, and how
+// far its iterates may leave the facet, in facets.
 constexpr int FirstSteps = 10;
 constexpr double FirstReach = 1.5;
 

@@ -389,8 +389,14 @@ std::vector<bool> ObjectImages::FindWhole(
 }
 
 //------------------------------------------------------------------------------
-CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* names,
-  std::size_t begin, std::size_t end, ImageMesh& pieces, ImageMesh& whole) const
+/**
+ * Keeps the cells whose images are those of their points, and calls `mapCell`, with the cell and
+ * the means to map it, for the others. It returns true if it has divided the cell.
+ */
+template <typename MapCell>
+CellReport ObjectImages::MapCells(const ObjectCells& cells, const std::int64_t* names,
+  std::size_t begin, std::size_t end, bool arePolygons, ImageMesh& pieces, ImageMesh& whole,
+  const MapCell& mapCell) const
 {
   const PrimitiveMapper mapping(
     this->Geometry, this->Tolerance, this->Nearest, this->Farthest, *this->Nodes);
@@ -402,68 +408,13 @@ CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* 
   {
     if ((i - begin) % CellsAtOnce == 0)
     {
-      this->FindStraight(cells, i, std::min(i + CellsAtOnce, end), false,
+      this->FindStraight(cells, i, std::min(i + CellsAtOnce, end), arePolygons,
         keepsPoints.begin() + static_cast<std::ptrdiff_t>(i - begin), division, areStraight);
     }
     const auto [ids, count] = cells.GetCell(i);
-    const std::int64_t cell = names[i];
     const Side side = this->FindSide(ids, count);
     const bool isOne = side == Side::Behind && this->HaveOneImage(ids, count);
-    if (keepsPoints[i - begin] || side == Side::InFront ||
-      (areStraight[(i - begin) % CellsAtOnce] && this->HasSimpleMiddle(ids, count)))
-    {
-      this->AddWhole(ids, count, cell, whole);
-      ++report.Whole;
-      continue;
-    }
-    const std::size_t before = pieces.GetNumberOfCells();
-    bool isDivided = isOne;
-    for (std::size_t k = 0; k + 1 < count; ++k)
-    {
-      if (isOne && this->MayLineBeDivided(ids + k) &&
-        division.AddLine(
-          this->GetImagedPoint(ids[k]), this->GetImagedPoint(ids[k + 1]), cell, pieces))
-      {
-        continue;
-      }
-      isDivided = false;
-      if (!this->AreInRange(ids + k, 2))
-      {
-        continue;
-      }
-      mapping.MapLine(this->MakeTriangle({ ids[k], ids[k + 1], ids[k] }), cell,
-        this->MayCrossMembrane(side), pieces);
-    }
-    report.Count(isDivided, pieces.GetNumberOfCells() > before);
-  }
-  return report;
-}
-
-//------------------------------------------------------------------------------
-CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_t* names,
-  std::size_t begin, std::size_t end, const Triangulate& triangulate, ImageMesh& pieces,
-  ImageMesh& whole, unsigned char* isMapped) const
-{
-  const PrimitiveMapper mapping(
-    this->Geometry, this->Tolerance, this->Nearest, this->Farthest, *this->Nodes);
-  EdgeSubdivision division(this->Geometry, this->Tolerance);
-  const std::vector<bool> keepsPoints = this->FindWhole(cells, begin, end);
-  CellReport report;
-  std::vector<std::int64_t> triangles;
-  std::vector<bool> areStraight;
-  for (std::size_t i = begin; i < end; ++i)
-  {
-    if ((i - begin) % CellsAtOnce == 0)
-    {
-      this->FindStraight(cells, i, std::min(i + CellsAtOnce, end), true,
-        keepsPoints.begin() + static_cast<std::ptrdiff_t>(i - begin), division, areStraight);
-    }
-    const auto [ids, count] = cells.GetCell(i);
-    const std::int64_t cell = names[i];
-    const Side side = this->FindSide(ids, count);
-    const bool isOne = side == Side::Behind && this->HaveOneImage(ids, count);
-    isMapped[i] = 0;
-    if (!this->AreInRange(ids, count))
+    if (arePolygons && !this->AreInRange(ids, count))
     {
       ++report.Without;
       continue;
@@ -471,29 +422,75 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
     if (keepsPoints[i - begin] || side == Side::InFront ||
       (areStraight[(i - begin) % CellsAtOnce] && this->HasSimpleMiddle(ids, count)))
     {
-      this->AddWhole(ids, count, cell, whole);
+      this->AddWhole(ids, count, names[i], whole);
       ++report.Whole;
       continue;
     }
-    triangles = { 0, 1, 2 };
-    if (count != 3)
-    {
-      triangulate(ids, count, triangles);
-    }
     const std::size_t before = pieces.GetNumberOfCells();
-    const bool isDivided = isOne && this->MayBeDivided(ids, triangles) &&
-      this->DividePolygon(ids, triangles, cell, division, pieces);
-    for (std::size_t k = 0; k + 2 < triangles.size() && !isDivided; k += 3)
-    {
-      mapping.MapTriangle(
-        this->MakeTriangle({ ids[triangles[k]], ids[triangles[k + 1]], ids[triangles[k + 2]] }),
-        cell, this->MayCrossMembrane(side), pieces);
-    }
-    isMapped[i] = isDivided ? 0 : 1;
+    const bool isDivided =
+      mapCell(CellToMap{ i, ids, count, names[i], side, isOne }, mapping, division);
     report.Count(isDivided, pieces.GetNumberOfCells() > before);
   }
   report.Coarse = static_cast<std::size_t>(division.GetNumberOfCoarse());
   return report;
+}
+
+//------------------------------------------------------------------------------
+CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* names,
+  std::size_t begin, std::size_t end, ImageMesh& pieces, ImageMesh& whole) const
+{
+  const auto mapLine = [this, &pieces](const CellToMap& cell, const PrimitiveMapper& mapping,
+                         EdgeSubdivision& division)
+  {
+    bool isDivided = cell.IsOne;
+    for (std::size_t k = 0; k + 1 < cell.Count; ++k)
+    {
+      const std::int64_t* const ids = cell.Ids + k;
+      if (cell.IsOne && this->MayLineBeDivided(ids) &&
+        division.AddLine(
+          this->GetImagedPoint(ids[0]), this->GetImagedPoint(ids[1]), cell.Name, pieces))
+      {
+        continue;
+      }
+      isDivided = false;
+      if (this->AreInRange(ids, 2))
+      {
+        mapping.MapLine(this->MakeTriangle({ ids[0], ids[1], ids[0] }), cell.Name,
+          this->MayCrossMembrane(cell.At), pieces);
+      }
+    }
+    return isDivided;
+  };
+  return this->MapCells(cells, names, begin, end, false, pieces, whole, mapLine);
+}
+
+//------------------------------------------------------------------------------
+CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_t* names,
+  std::size_t begin, std::size_t end, const Triangulate& triangulate, ImageMesh& pieces,
+  ImageMesh& whole, unsigned char* isMapped) const
+{
+  std::fill(isMapped + begin, isMapped + end, static_cast<unsigned char>(0));
+  std::vector<std::int64_t> triangles;
+  const auto mapPolygon =
+    [&](const CellToMap& cell, const PrimitiveMapper& mapping, EdgeSubdivision& division)
+  {
+    triangles = { 0, 1, 2 };
+    if (cell.Count != 3)
+    {
+      triangulate(cell.Ids, cell.Count, triangles);
+    }
+    const bool isDivided = cell.IsOne && this->MayBeDivided(cell.Ids, triangles) &&
+      this->DividePolygon(cell.Ids, triangles, cell.Name, division, pieces);
+    for (std::size_t k = 0; k + 2 < triangles.size() && !isDivided; k += 3)
+    {
+      mapping.MapTriangle(this->MakeTriangle({ cell.Ids[triangles[k]], cell.Ids[triangles[k + 1]],
+                            cell.Ids[triangles[k + 2]] }),
+        cell.Name, this->MayCrossMembrane(cell.At), pieces);
+    }
+    isMapped[cell.Index] = isDivided ? 0 : 1;
+    return isDivided;
+  };
+  return this->MapCells(cells, names, begin, end, true, pieces, whole, mapPolygon);
 }
 
 //------------------------------------------------------------------------------

@@ -136,6 +136,21 @@ private:
   ImagedPoint GetImagedPoint(std::int64_t id) const;
   bool DividePolygon(const std::int64_t* ids, const std::vector<std::int64_t>& triangles,
     std::int64_t cell, EdgeSubdivision& division, ImageMesh& pieces) const;
+  /** A cell whose image is not that of its points alone. */
+  struct CellToMap
+  {
+    std::size_t Index;
+    const std::int64_t* Ids;
+    std::size_t Count;
+    std::int64_t Name;
+    Side At;
+    /** True if each of its points has one image, behind the membrane. */
+    bool IsOne;
+  };
+  template <typename MapCell>
+  CellReport MapCells(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
+    std::size_t end, bool arePolygons, ImageMesh& pieces, ImageMesh& whole,
+    const MapCell& mapCell) const;
 
   CurvedMembraneSolver& Geometry;
   const ParallelPlanes* Plane;             ///< may be null

@@ -453,6 +453,7 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeOnSide(const Context& context,
 bool PrimitiveMapper::SolveEnd(
   const Context& context, const SubCell& nodes, std::size_t end, PatchPoint& at) const
 {
+  // The guess is in the sub-cell, so the search is a short one and stays near it.
   constexpr int steps = 10;
   constexpr double reach = 0.5;
   const glm::dvec2 guess = GuessSight(nodes, context.Corners[end]);

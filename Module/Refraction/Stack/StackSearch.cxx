@@ -3,7 +3,6 @@
 #include "Refraction/Stack/StackSearch.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace meniscus

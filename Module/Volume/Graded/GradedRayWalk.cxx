@@ -121,7 +121,7 @@ GradedRayWalk::GradedRayWalk(const GradedMedium& medium)
   : Medium(medium)
   , Crossings(*medium.Mesh, *medium.Tree, medium.Cones)
 {
-  constexpr std::int64_t fewest = 65536;
+  constexpr std::int64_t fewest = 65536; // see GradedMedium::MaximumNumberOfSteps
   this->MaximumNumberOfSteps = medium.MaximumNumberOfSteps > 0
     ? medium.MaximumNumberOfSteps
     : std::max(fewest, 4 * medium.Mesh->GetNumberOfActiveCells());

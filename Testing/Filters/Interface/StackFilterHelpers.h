@@ -17,13 +17,8 @@ inline vtkSmartPointer<vtkPolyData> MoveBy(vtkSmartPointer<vtkPolyData> surface,
 {
   vtkNew<vtkPoints> points;
   points->DeepCopy(surface->GetPoints());
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-  {
-    double p[3];
-    points->GetPoint(i, p);
-    points->SetPoint(i, p[0], p[1] + y, p[2]);
-  }
   surface->SetPoints(points);
+  MapPoints(surface, [y](const glm::dvec3& p) { return glm::dvec3(p.x, p.y + y, p.z); });
   return surface;
 }
 

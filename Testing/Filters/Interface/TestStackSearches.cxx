@@ -27,13 +27,10 @@ vtkSmartPointer<vtkPolyData> MakeWavySquare(double half, double z, double amplit
 {
   const auto surface = MakeSquare(half, z, cells);
   surface->GetPointData()->SetNormals(nullptr);
-  vtkPoints* points = surface->GetPoints();
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-  {
-    const glm::dvec3 p = PointOf(points, i);
-    points->SetPoint(
-      i, p[0], p[1], z + amplitude * std::sin(5.0 * p[0] + 0.3) * std::cos(4.0 * p[1]));
-  }
+  MapPoints(surface,
+    [=](const glm::dvec3& p) {
+      return glm::dvec3(p.x, p.y, z + amplitude * std::sin(5.0 * p.x + 0.3) * std::cos(4.0 * p.y));
+    });
   return surface;
 }
 

@@ -111,11 +111,7 @@ protected:
 TEST_F(SharedMembrane, ListsOfInterfacesAreShared)
 {
   const auto below = MakeFlatMembrane();
-  for (vtkIdType i = 0; i < below->GetNumberOfPoints(); ++i)
-  {
-    const double* p = below->GetPoint(i);
-    below->GetPoints()->SetPoint(i, p[0], p[1] - 10.0, p[2]);
-  }
+  MapPoints(below, [](const glm::dvec3& p) { return p - glm::dvec3(0.0, 10.0, 0.0); });
   const auto alone = this->Make(-50.0);
   alone->SetMembraneData(Copy(this->Water));
   for (vtkRefractedGeometryFilter* filter : { this->First.Get(), this->Second.Get(), alone.Get() })

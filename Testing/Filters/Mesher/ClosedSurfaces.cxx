@@ -198,13 +198,7 @@ Surface MakeGeodesicSphere(double radius, int levels)
     {
       surface = Divided(surface);
     }
-    for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
-    {
-      double x[3];
-      surface->GetPoint(p, x);
-      vtkMath::Normalize(x);
-      surface->GetPoints()->SetPoint(p, radius * x[0], radius * x[1], radius * x[2]);
-    }
+    MapPoints(surface, [radius](const glm::dvec3& x) { return radius * glm::normalize(x); });
   }
   return surface;
 }
@@ -274,11 +268,7 @@ Surface Reversed(vtkPolyData* surface)
 Surface Moved(vtkPolyData* surface, const std::array<double, 3>& by)
 {
   Surface copy = CopyOf(surface);
-  for (vtkIdType p = 0; p < copy->GetNumberOfPoints(); ++p)
-  {
-    const glm::dvec3 x = PointOf(copy, p);
-    copy->GetPoints()->SetPoint(p, x[0] + by[0], x[1] + by[1], x[2] + by[2]);
-  }
+  MapPoints(copy, [&by](const glm::dvec3& x) { return x + glm::dvec3(by[0], by[1], by[2]); });
   return copy;
 }
 
@@ -287,11 +277,8 @@ Surface Moved(vtkPolyData* surface, const std::array<double, 3>& by)
 Surface Flattened(vtkPolyData* surface)
 {
   Surface copy = CopyOf(surface);
-  for (vtkIdType p = 0; p < copy->GetNumberOfPoints(); ++p)
-  {
-    const glm::dvec3 x = PointOf(copy, p);
-    copy->GetPoints()->SetPoint(p, x[0] + 2.0 * x[2], x[1] + 2.0 * x[2], 0.0);
-  }
+  MapPoints(
+    copy, [](const glm::dvec3& x) { return glm::dvec3(x.x + 2.0 * x.z, x.y + 2.0 * x.z, 0.0); });
   return copy;
 }
 

@@ -54,14 +54,7 @@ struct KeptOutputs : public ::testing::TestWithParam<const char*>
     if (kind == "Interfaces")
     {
       auto lower = MakeFlatMembrane();
-      vtkNew<vtkPoints> points;
-      points->DeepCopy(lower->GetPoints());
-      for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-      {
-        const glm::dvec3 p = PointOf(points, i);
-        points->SetPoint(i, p[0], p[1] - 10.0, p[2]);
-      }
-      lower->SetPoints(points);
+      MapPoints(lower, [](const glm::dvec3& p) { return p - glm::dvec3(0.0, 10.0, 0.0); });
       this->Refraction->AddMembraneData(lower);
       this->Refraction->GetInterfaces()->AddInterface(1.333, 1.5);
     }

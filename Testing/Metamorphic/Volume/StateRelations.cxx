@@ -240,11 +240,7 @@ void CheckThreads(VolumeTrial& trial)
     trial.GetStage().GetMapper()->Modified(); // or the last image would be shown again
     // The same operations on the same numbers: every digit must be equal.
     trial.ExpectSame(
-      trial.GetStage().Draw(trial.MakeScene()),
-      [](int x, int y) {
-        return std::array<int, 2>{ x, y };
-      },
-      0.0, std::to_string(threads) + " threads");
+      trial.GetStage().Draw(trial.MakeScene()), 0.0, std::to_string(threads) + " threads");
   }
   vtkSMPTools::Initialize(0);
   vtkSMPTools::SetBackend(usual.c_str());
@@ -284,12 +280,7 @@ void CheckAgain(VolumeTrial& trial)
   trial.MakePicture();
   for (int i = 0; i < 2; ++i)
   {
-    trial.ExpectSame(
-      trial.GetStage().Draw(trial.MakeScene()),
-      [](int x, int y) {
-        return std::array<int, 2>{ x, y };
-      },
-      0.0, "drawn again");
+    trial.ExpectSame(trial.GetStage().Draw(trial.MakeScene()), 0.0, "drawn again");
   }
 }
 
@@ -311,11 +302,7 @@ void CheckBackends(VolumeTrial& trial)
   changed.Backend = native;
   trial.MakePicture();
   // Each image is within its own tolerance of the exact one.
-  trial.ExpectSame(
-    trial.GetStage().Draw(changed),
-    [](int x, int y) {
-      return std::array<int, 2>{ x, y };
-    },
+  trial.ExpectSame(trial.GetStage().Draw(changed),
     PlainTolerance(native) + PlainTolerance(trial.MakeScene().Backend), "native");
 }
 

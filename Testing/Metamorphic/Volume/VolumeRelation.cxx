@@ -101,12 +101,18 @@ void VolumeTrial::ExpectSame(const VolumeCase& changed, const std::string& words
 //------------------------------------------------------------------------------
 void VolumeTrial::ExpectSame(const FloatImage& changed, const std::string& words)
 {
+  this->ExpectSame(changed, PlainTolerance(this->Scene.Backend), words);
+}
+
+//------------------------------------------------------------------------------
+void VolumeTrial::ExpectSame(const FloatImage& changed, double tolerance, const std::string& words)
+{
   this->ExpectSame(
     changed,
     [](int x, int y) {
       return std::array<int, 2>{ x, y };
     },
-    PlainTolerance(this->Scene.Backend), words);
+    tolerance, words);
 }
 
 //------------------------------------------------------------------------------

@@ -32,6 +32,7 @@ public:
   void ExpectSame(const VolumeCase& changed, const std::string& words);
   /** Expects an image to equal the scene's. */
   void ExpectSame(const FloatImage& changed, const std::string& words);
+  void ExpectSame(const FloatImage& changed, double tolerance, const std::string& words);
   void ExpectSame(
     const FloatImage& changed, const PixelMap& map, double tolerance, const std::string& words);
 

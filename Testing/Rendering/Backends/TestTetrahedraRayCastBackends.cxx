@@ -116,8 +116,8 @@ void ExpectAgreementOfModes(
 
 TEST(TetrahedraRayCastBackends, ComputeAgreesWithFragmentsInEveryMode)
 {
-  const Grid grid = MakeBlock(7, WavyField(3.0), Torus(0.6, 0.35));
-  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
+  RayCastScene scene(MakeBlock(7, WavyField(3.0), Torus(0.6, 0.35)),
+    MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
   scene.GetWindow()->Render();
   if (!HasCompute(scene.GetWindow()))
   {
@@ -132,8 +132,8 @@ TEST(TetrahedraRayCastBackends, ComputeAgreesWithFragmentsInEveryMode)
 TEST(TetrahedraRayCastBackends, NativeAgreesWithFragmentsInEveryMode)
 {
   // A convex mesh, since rays next to a silhouette may count as inside or outside.
-  const Grid grid = MakeBlock(7, WavyField(3.0));
-  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
+  RayCastScene scene(
+    MakeBlock(7, WavyField(3.0)), MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
   const std::vector<int> backends{ vtkTetrahedraRayCastMapper::NATIVE };
   ExpectAgreement(scene, backends, "plain");
   scene.GetVolume()->SetProperty(LitProperty());
@@ -178,8 +178,7 @@ TEST(TetrahedraRayCastBackends, AllAgreeThroughAMembraneInEveryMode)
 
 TEST(TetrahedraRayCastBackends, AutomaticIsNativeOnASoftwareRasteriser)
 {
-  const Grid grid = MakeBlock(4, WavyField(3.0));
-  RayCastScene scene(grid, LitProperty(), Size, Size);
+  RayCastScene scene(MakeBlock(4, WavyField(3.0)), LitProperty(), Size, Size);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   mapper->SetBackend(vtkTetrahedraRayCastMapper::AUTOMATIC);
   scene.GetWindow()->Render();
@@ -222,8 +221,8 @@ TEST(TetrahedraRayCastBackends, NativeAgreesFromWithinAMeshOfManyParts)
 TEST(TetrahedraRayCastBackends, ComputeOrFragmentsAsTheWindowAllows)
 {
   // This test runs a second time with OpenGL limited to 3.2.
-  const Grid grid = MakeBlock(4, WavyField(3.0));
-  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
+  RayCastScene scene(
+    MakeBlock(4, WavyField(3.0)), MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::COMPUTE);
   const auto warnings = ObserveErrors(scene.GetRayCaster());
   ExpectMatchesReference(scene, "compute asked for");
@@ -236,8 +235,8 @@ TEST(TetrahedraRayCastBackends, ComputeOrFragmentsAsTheWindowAllows)
 
 TEST(TetrahedraRayCastBackends, SwitchingKeepsTheTables)
 {
-  const Grid grid = MakeBlock(4, WavyField(3.0));
-  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
+  RayCastScene scene(
+    MakeBlock(4, WavyField(3.0)), MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   const auto drawWithEach = [&]()
   {

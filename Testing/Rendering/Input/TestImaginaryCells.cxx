@@ -80,10 +80,8 @@ double FindDent(vtkUnstructuredGrid* grid)
 /** Picture of a mesh in the view of another one, and the number of cells that are drawn. */
 std::pair<FloatImage, vtkTypeInt64> Draw(vtkUnstructuredGrid* grid, vtkUnstructuredGrid* viewed)
 {
-  double range[2];
-  viewed->GetPointData()->GetScalars()->GetFiniteRange(range);
   RayCastScene scene(
-    grid, MakeProperty(FunctionKind::Smooth, range, DiagonalOf(viewed->GetBounds())), 96, 96);
+    grid, MakeProperty(FunctionKind::Smooth, viewed, DiagonalOf(viewed->GetBounds())), 96, 96);
   scene.GetRayCaster()->SetBackend(BackendUnderTest());
   LookAt(scene.GetRenderer(), viewed->GetBounds(), 25.0, 15.0);
   const FloatImage image = scene.RenderFloat();

@@ -105,16 +105,6 @@ std::vector<Grid> Interlocking(vtkUnstructuredGrid* grid)
   return parts;
 }
 
-vtkSmartPointer<vtkMultiBlockDataSet> MakeBlocks(const std::vector<Grid>& parts)
-{
-  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-  for (std::size_t i = 0; i < parts.size(); ++i)
-  {
-    blocks->SetBlock(static_cast<unsigned int>(i), parts[i]);
-  }
-  return blocks;
-}
-
 /** Cells of a structured kind over [-1, 1]^3 with n cubes along each axis. */
 void AddScalars(vtkDataSet* grid, const Field& field)
 {
@@ -251,11 +241,7 @@ TEST(TetrahedraRayCastComposite, LeavesWithoutTheArrayAreLeftOutWithOneWarning)
 TEST(TetrahedraRayCastComposite, SurfacesAndEmptyLeavesAreNoMistake)
 {
   const Grid whole = MakeBlock(4, MakeLinear());
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, vtkSmartPointer<vtkPolyData>::New());
-  blocks->SetBlock(1, whole);
-  blocks->SetBlock(2, Grid::New());
-  AnyScene scene(blocks);
+  AnyScene scene(MakeBlocks({ vtkSmartPointer<vtkPolyData>::New(), whole, Grid::New() }));
   ExpectSamePicture(scene.MakePicture(), PictureOf(whole), "beside a surface");
   EXPECT_TRUE(scene.Observer->Errors.empty());
   EXPECT_TRUE(scene.Observer->Warnings.empty());

@@ -190,11 +190,7 @@ TEST_F(TetrahedraRayCastEdits, CoordinatesOfARectilinearGrid)
 
 TEST_F(TetrahedraRayCastEdits, Membrane)
 {
-  vtkNew<vtkPlaneSource> source;
-  source->SetOrigin(-2.0, -2.0, 0.2);
-  source->SetPoint1(2.0, -2.0, 0.2);
-  source->SetPoint2(-2.0, 2.0, 0.2);
-  source->SetResolution(4, 4);
+  const auto source = MakePlane(2.0, 0.2, 4);
   source->Update();
   vtkPolyData* membrane = source->GetOutput();
   membrane->GetPointData()->Initialize(); // normals are computed from the shape

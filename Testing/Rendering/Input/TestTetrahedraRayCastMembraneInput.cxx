@@ -90,8 +90,7 @@ struct Outcome
 Outcome RenderWith(
   vtkPolyData* membrane, const std::function<void(vtkTetrahedraRayCastMapper*)>& prepare = nullptr)
 {
-  const Grid grid = MakeBlock(4, WavyField(3.0));
-  RayCastScene scene(grid, Smooth(), Size, Size);
+  RayCastScene scene(MakeBlock(4, WavyField(3.0)), Smooth(), Size, Size);
   scene.GetRayCaster()->SetMembraneData(membrane);
   if (prepare)
   {
@@ -219,10 +218,7 @@ TEST(TetrahedraRayCastMembraneInput, OutOfViewAndTakenAway)
 
 TEST(TetrahedraRayCastMembraneInput, ByAPipeline)
 {
-  vtkNew<vtkPlaneSource> source; // in the x-y plane, with normals along z
-  source->SetOrigin(-4.0, -4.0, 0.0);
-  source->SetPoint1(4.0, -4.0, 0.0);
-  source->SetPoint2(-4.0, 4.0, 0.0);
+  const auto source = MakePlane(4.0, 0.0, 1); // normals along z
   vtkNew<vtkTransform> turn;
   turn->Translate(0.0, 1.2, 0.0);
   turn->RotateX(-90.0);
@@ -289,8 +285,7 @@ TEST(TetrahedraRayCastMembraneInput, NativeWhereTheDeviceHasNoRoom)
 // Images of another size than the window: all backends draw them alike.
 TEST(TetrahedraRayCastMembraneInput, CoarserRaysAndPartOfTheWindow)
 {
-  const Grid grid = MakeBlock(4, WavyField(3.0));
-  RayCastScene scene(grid, Smooth(), Size, Size);
+  RayCastScene scene(MakeBlock(4, WavyField(3.0)), Smooth(), Size, Size);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   mapper->SetMembraneData(MakePlaneCase(0.1, 4.0, 2).Mesh);
   mapper->AutoAdjustSampleDistancesOff();
@@ -315,8 +310,7 @@ TEST(TetrahedraRayCastMembraneInput, CoarserRaysAndPartOfTheWindow)
 
 TEST(TetrahedraRayCastMembraneInput, ReleasedAndResized)
 {
-  const Grid grid = MakeBlock(4, WavyField(3.0));
-  RayCastScene scene(grid, Smooth(), Size, Size);
+  RayCastScene scene(MakeBlock(4, WavyField(3.0)), Smooth(), Size, Size);
   scene.GetRayCaster()->SetMembraneData(MakePlaneCase(0.1, 4.0, 2).Mesh);
   LookAt(scene.GetRenderer(), Block, 30.0, 45.0);
   const FloatImage first = scene.RenderFloat();
@@ -331,8 +325,7 @@ TEST(TetrahedraRayCastMembraneInput, ReleasedAndResized)
 
 TEST(TetrahedraRayCastMembraneInput, BoundsHoldTheMembranes)
 {
-  const Grid grid = MakeBlock(2, WavyField(3.0));
-  RayCastScene scene(grid, Smooth(), Size, Size);
+  RayCastScene scene(MakeBlock(2, WavyField(3.0)), Smooth(), Size, Size);
   scene.GetRayCaster()->SetMembraneData(MakePlaneCase(1.2, 4.0, 2).Mesh);
   scene.GetRayCaster()->AddMembraneData(MakePlaneCase(1.1, 5.0, 2).Mesh);
   scene.GetRayCaster()->GetInterfaces()->AddInterface(1.333, 1.5);
@@ -356,10 +349,7 @@ TEST(TetrahedraRayCastMembraneInput, UnusableMembranes)
   ExpectError(RenderWith(empty), "no usable triangle");
 
   const auto nan = MakePlaneCase(1.2, 4.0, 2).Mesh;
-  for (vtkIdType i = 0; i < nan->GetNumberOfPoints(); ++i)
-  {
-    nan->GetPoints()->SetPoint(i, 0.0, std::numeric_limits<double>::quiet_NaN(), 0.0);
-  }
+  MapPoints(nan, [](const glm::dvec3&) { return glm::dvec3(0.0, std::nan(""), 0.0); });
   ExpectError(RenderWith(nan), "no usable triangle");
 
   const auto lines = MakePlaneCase(1.2, 4.0, 2).Mesh;
@@ -405,8 +395,7 @@ TEST(TetrahedraRayCastMembraneInput, FacetsThatAreSkipped)
 TEST(TetrahedraRayCastMembraneInput, EyeOnTheMembrane)
 {
   // Rounding decides on which side it is; something must be drawn, and nothing may fail.
-  const Grid grid = MakeBlock(4, WavyField(3.0));
-  RayCastScene scene(grid, Smooth(), Size, Size);
+  RayCastScene scene(MakeBlock(4, WavyField(3.0)), Smooth(), Size, Size);
   scene.GetRayCaster()->SetMembraneData(MakePlaneCase(2.0, 4.0, 2).Mesh);
   vtkCamera* camera = scene.GetRenderer()->GetActiveCamera();
   camera->SetPosition(0.5, 2.0, 2.5);

@@ -15,9 +15,7 @@ const std::vector<FunctionKind> AllKinds{ FunctionKind::Smooth, FunctionKind::Pe
 
 vtkSmartPointer<vtkVolumeProperty> PropertyFor(vtkUnstructuredGrid* grid, FunctionKind kind)
 {
-  double range[2];
-  grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-  return MakeProperty(kind, range, DiagonalOf(grid->GetBounds()));
+  return MakeProperty(kind, grid, DiagonalOf(grid->GetBounds()));
 }
 
 // All kinds of functions in one perspective and one parallel view.
@@ -69,16 +67,8 @@ TEST(TetrahedraRayCastMeshes, NeedlesSeenAslant)
   // cancels in the areas by which depth is interpolated. The function is as narrow as the depth's
   // last digit allows.
   const Grid grid = MakeBlock(6, WavyField(3.0));
-  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
-  {
-    double x[3];
-    grid->GetPoint(p, x);
-    x[0] *= 1e4;
-    grid->GetPoints()->SetPoint(p, x);
-  }
-  double range[2];
-  grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, range, 300.0), Size, Size);
+  MapPoints(grid, [](const glm::dvec3& x) { return x * glm::dvec3(1e4, 1.0, 1.0); });
+  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, grid, 300.0), Size, Size);
   vtkCamera* camera = scene.GetRenderer()->GetActiveCamera();
   camera->ParallelProjectionOn();
   camera->SetParallelScale(2.0);

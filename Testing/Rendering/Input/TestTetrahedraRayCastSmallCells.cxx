@@ -49,17 +49,13 @@ Grid MakeGradedBlock()
   }
   const double factor = low;
   const Grid grid = MakeBlock(Cubes, WavyField(3.0));
-  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
-  {
-    double x[3];
-    grid->GetPoint(p, x);
-    for (double& value : x)
+  MapPoints(grid,
+    [factor](const glm::dvec3& x)
     {
-      const double fromCorner = 0.5 * (1.0 - value) * Cubes;
-      value = 1.0 - 2.0 * (std::pow(factor, fromCorner) - 1.0) / (std::pow(factor, Cubes) - 1.0);
-    }
-    grid->GetPoints()->SetPoint(p, x);
-  }
+      const glm::dvec3 fromCorner = 0.5 * (1.0 - x) * double{ Cubes };
+      return 1.0 -
+        2.0 * (glm::pow(glm::dvec3(factor), fromCorner) - 1.0) / (std::pow(factor, Cubes) - 1.0);
+    });
   return grid;
 }
 

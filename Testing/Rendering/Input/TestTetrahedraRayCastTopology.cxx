@@ -203,9 +203,7 @@ TEST(TetrahedraRayCastTopology, CellsOfSeveralBlocksCountOnce)
   const Grid grid = MakeBlock(4, WavyField(3.0));
   vtkTypeInt64 copies = 0;
   const Grid again = Doubled(grid, 2, copies);
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, grid);
-  blocks->SetBlock(1, again);
+  const auto blocks = MakeBlocks({ grid, again });
   for (const int backend : Backends)
   {
     const Drawn drawn = Draw(blocks, backend);

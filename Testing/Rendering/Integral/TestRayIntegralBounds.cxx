@@ -12,19 +12,14 @@ namespace
 {
 
 /** A corner of the drawn cells in the middle of Germany, in metres of UTM. */
-constexpr double Place[3] = { 561000.0, 5700000.0, 100.0 };
+const glm::dvec3 Place(561000.0, 5700000.0, 100.0);
 const double NaN = std::numeric_limits<double>::quiet_NaN();
 
 /** The cube of side 10 at Place, in tetrahedra. */
 Grid MakeCube()
 {
   const Grid grid = MakeCubeOfFive(ConstantField(1.0));
-  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
-  {
-    const glm::dvec3 at = PointOf(grid, i);
-    grid->GetPoints()->SetPoint(
-      i, Place[0] + 10.0 * at[0], Place[1] + 10.0 * at[1], Place[2] + 10.0 * at[2]);
-  }
+  MapPoints(grid, [](const glm::dvec3& at) { return Place + 10.0 * at; });
   return grid;
 }
 
@@ -60,26 +55,12 @@ struct BoundsCase
   vtkSmartPointer<vtkDataObject> Input;
 };
 
-vtkSmartPointer<vtkDataObject> MakeBlocks(const std::vector<vtkSmartPointer<vtkDataObject>>& parts)
-{
-  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-  for (const auto& part : parts)
-  {
-    blocks->SetBlock(blocks->GetNumberOfBlocks(), part);
-  }
-  return blocks;
-}
-
 Grid MakeHalf(int axisSide)
 {
   const Grid half = MakeCube();
-  for (vtkIdType i = 0; i < half->GetNumberOfPoints(); ++i)
-  {
-    double at[3];
-    half->GetPoint(i, at);
-    at[0] = Place[0] + 0.5 * (at[0] - Place[0]) + 5.0 * axisSide;
-    half->GetPoints()->SetPoint(i, at);
-  }
+  MapPoints(half,
+    [axisSide](const glm::dvec3& at)
+    { return glm::dvec3(Place.x + 0.5 * (at.x - Place.x) + 5.0 * axisSide, at.y, at.z); });
   return half;
 }
 
@@ -105,24 +86,18 @@ std::vector<BoundsCase> MakeCases()
     });
   add("triangle", [](vtkUnstructuredGrid* grid) { AddFarCell(grid, VTK_TRIANGLE, 3); });
   add("vertex", [](vtkUnstructuredGrid* grid) { AddFarCell(grid, VTK_VERTEX, 1); });
-  add("hidden cell",
-    [](vtkUnstructuredGrid* grid)
-    {
-      AddFarCell(grid, VTK_TETRA, 4);
-      AddFlags(grid, vtkDataSetAttributes::HIDDENCELL);
-    });
-  add("ghost cell",
-    [](vtkUnstructuredGrid* grid)
-    {
-      AddFarCell(grid, VTK_TETRA, 4);
-      AddFlags(grid, vtkDataSetAttributes::DUPLICATECELL);
-    });
-  add("refined cell",
-    [](vtkUnstructuredGrid* grid)
-    {
-      AddFarCell(grid, VTK_TETRA, 4);
-      AddFlags(grid, vtkDataSetAttributes::REFINEDCELL);
-    });
+  for (const auto& [name, flag] : std::initializer_list<std::pair<const char*, unsigned char>>{
+         { "hidden cell", vtkDataSetAttributes::HIDDENCELL },
+         { "ghost cell", vtkDataSetAttributes::DUPLICATECELL },
+         { "refined cell", vtkDataSetAttributes::REFINEDCELL } })
+  {
+    add(name,
+      [bits = flag](vtkUnstructuredGrid* grid)
+      {
+        AddFarCell(grid, VTK_TETRA, 4);
+        AddFlags(grid, bits);
+      });
+  }
   add("tetrahedron with a repeated point",
     [](vtkUnstructuredGrid* grid)
     {

@@ -146,15 +146,8 @@ TEST(BrokenCellArrays, PointsOfTheNextDataSetAreOutOfRange)
   const vtkIdType ids[8] = { 0, 1, 2, 3, 4, 5, 6, 108 + 7 };
   first->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
   const Grid second = MakeCube();
-  for (vtkIdType i = 0; i < second->GetNumberOfPoints(); ++i)
-  {
-    const glm::dvec3 at = PointOf(second, i);
-    second->GetPoints()->SetPoint(i, at[0] + 5.0, at[1], at[2]);
-  }
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, first);
-  blocks->SetBlock(1, second);
-  ExpectCube(blocks, "1 with a point index out of range", 1);
+  MapPoints(second, [](const glm::dvec3& at) { return at + glm::dvec3(5.0, 0.0, 0.0); });
+  ExpectCube(MakeBlocks({ first, second }), "1 with a point index out of range", 1);
 }
 
 TEST(BrokenCellArrays, OffsetsOutsideOfTheirArray)

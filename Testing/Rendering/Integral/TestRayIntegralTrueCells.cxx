@@ -298,12 +298,7 @@ TEST(TrueCells, ScalarsAndPointsKeepTheDivision)
   EXPECT_EQ(fresh->GetStatistic("NumberOfTetrahedra"), pieces);
   EXPECT_EQ(ValuesOf(rays, "Integral"), ValuesOf(fresh, "Integral"));
   // Stretched points keep the division: the positions of all points are interpolated.
-  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
-  {
-    const glm::dvec3 at = PointOf(grid, i);
-    grid->GetPoints()->SetPoint(i, 0.9 * at[0], 0.9 * at[1], 0.9 * at[2]);
-  }
-  grid->GetPoints()->Modified();
+  MapPoints(grid, [](const glm::dvec3& at) { return 0.9 * at; });
   rays->Update();
   fresh->Update();
   EXPECT_EQ(rays->GetStatistic("NumberOfCellDivisions"), 1);

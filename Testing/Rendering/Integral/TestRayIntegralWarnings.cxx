@@ -123,12 +123,7 @@ TEST(MeshWarnings, SizesBeyondSinglePrecision)
   for (const auto& [scale, isHeld] : scales)
   {
     const Grid grid = MakeLayers(2, 0.5);
-    for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
-    {
-      double x[3];
-      grid->GetPoint(p, x);
-      grid->GetPoints()->SetPoint(p, scale * x[0], scale * x[1], scale * x[2]);
-    }
+    MapPoints(grid, [by = scale](const glm::dvec3& x) { return by * x; });
     const Filter rays = MakeFilter(grid, 4, 4, { "PathLength" });
     const std::vector<std::string> warnings = UpdateAndListen(rays);
     if (!isHeld)
@@ -156,9 +151,7 @@ TEST(MeshWarnings, OverlappingBodies)
   TransformPoints(beside, { 2.0, 0.0, 0.0 }, 1.0);
   for (const bool overlaps : { true, false })
   {
-    vtkNew<vtkMultiBlockDataSet> blocks;
-    blocks->SetBlock(0, outer);
-    blocks->SetBlock(1, overlaps ? inner : beside);
+    const auto blocks = MakeBlocks({ outer, overlaps ? inner : beside });
     const Filter rays = MakeFilter(blocks, 64, 64, { "Integral" });
     rays->SetDirection(0.11, 0.07, -1.0);
     const std::vector<std::string> warnings = UpdateAndListen(rays);

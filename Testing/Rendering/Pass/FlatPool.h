@@ -5,7 +5,7 @@
 
 #include "ExactStack.h"
 #include "RayCastScene.h"
-#include "WaterParts.h"
+#include "SceneParts.h"
 
 #include <vtkAlgorithmOutput.h>
 #include <vtkRefractedGeometryFilter.h>

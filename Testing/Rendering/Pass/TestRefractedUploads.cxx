@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Uploads of virtual geometry by VTK's mapper: new colours leave the points on the device.
+#include "SceneParts.h"
 #include "VTKTestBasics.h"
 
 #include <vtkOpenGLPolyDataMapper.h>
@@ -26,10 +27,7 @@ TEST(RefractedUploads, NewColorsLeaveThePointsOnTheDevice)
   sphere->Update();
   vtkPolyData* object = sphere->GetOutput();
   SetColors(object, 0.0);
-  vtkNew<vtkPlaneSource> water;
-  water->SetOrigin(-5.0, -5.0, 0.0);
-  water->SetPoint1(5.0, -5.0, 0.0);
-  water->SetPoint2(-5.0, 5.0, 0.0);
+  const auto water = meniscus::test::MakePlane(5.0, 0.0, 1);
   vtkNew<vtkRefractedGeometryFilter> refraction;
   refraction->SetInputData(0, object);
   refraction->SetInputConnection(1, water->GetOutputPort());

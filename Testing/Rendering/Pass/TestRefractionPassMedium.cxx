@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The medium behind a membrane, compared with closed forms: a plane of water, seen from above.
 #include "FlatPool.h"
+#include "StrictImage.h"
 
 #include <vtkTexture.h>
 
@@ -78,17 +79,6 @@ constexpr PassMedium Media[] = {
     { 0.2, 0.9, 0.5 } },
   { "step", vtkRefractionPass::LINEAR, { 0.0, 0.0, 0.0 }, { 0.5, 0.5 }, { 0.2, 0.9, 0.5 } },
 };
-
-/** Largest difference of two images, in steps of 8 bits. */
-int LargestDifference(const ByteImage& a, const ByteImage& b)
-{
-  int largest = 0;
-  for (std::size_t i = 0; i < a.Rgb.size(); ++i)
-  {
-    largest = std::max(largest, std::abs(int{ a.Rgb[i] } - int{ b.Rgb[i] }));
-  }
-  return largest;
-}
 
 } // anonymous namespace
 
@@ -226,7 +216,7 @@ TEST(RefractionPassMedium, AFieldAndAnObjectLookAlike)
         pool.Pass->RemoveAllRefractions();
         block->Add();
         ExpectColors(pool, std::string("field, ") + medium.Name, expected);
-        EXPECT_LE(LargestDifference(pool.Render(), object), 1) << medium.Name;
+        EXPECT_LE(CompareStrictly(pool.Render(), object, 0).Largest, 1) << medium.Name;
         EXPECT_EQ(block->Mapper->GetNumberOfLostRays(), 0);
       }
     }

@@ -218,12 +218,8 @@ vtkSmartPointer<vtkPolyData> MakeTwistedSheet(double middle, double twist, int c
 
 int CountDifferences(const ByteImage& a, const ByteImage& b)
 {
-  int count = 0;
-  for (std::size_t i = 0; i < a.Rgb.size(); ++i)
-  {
-    count += a.Rgb[i] != b.Rgb[i] ? 1 : 0;
-  }
-  return count;
+  return std::inner_product(
+    a.Rgb.begin(), a.Rgb.end(), b.Rgb.begin(), 0, std::plus<>(), std::not_equal_to<>());
 }
 
 } // anonymous namespace

@@ -3,7 +3,8 @@
 // Volumes behind the membranes of vtkRefractionPass: the image equals that of the mapper alone,
 // apart from Fresnel's transmittance.
 #include "RayCastScene.h"
-#include "WaterParts.h"
+#include "SceneParts.h"
+#include "StrictImage.h"
 
 #include <vtkRefractedGeometryFilter.h>
 #include <vtkRefractingInterface.h>
@@ -91,26 +92,10 @@ public:
   VolumeScene Scene;
 };
 
-struct Differences
+/** Allows for the rounding of two parts of a picture. */
+StrictDifference Compare(const ByteImage& a, const ByteImage& b)
 {
-  int Largest = 0;
-  int Pixels = 0; // number of pixels with a difference of more than 2
-};
-
-Differences Compare(const ByteImage& a, const ByteImage& b)
-{
-  Differences result;
-  for (std::size_t pixel = 0; pixel < a.Rgb.size(); pixel += 3)
-  {
-    int largest = 0;
-    for (std::size_t c = pixel; c < pixel + 3; ++c)
-    {
-      largest = std::max(largest, std::abs(int{ a.Rgb[c] } - int{ b.Rgb[c] }));
-    }
-    result.Largest = std::max(result.Largest, largest);
-    result.Pixels += largest > 2 ? 1 : 0;
-  }
-  return result;
+  return CompareStrictly(a, b, 2);
 }
 
 } // anonymous namespace
@@ -122,7 +107,7 @@ TEST(RefractionPassVolume, IsThePictureOfTheMapperAlone)
   {
     Basin basin(level);
     const ByteImage plain = basin.RenderPlain();
-    const Differences off = Compare(basin.RenderPass(), plain);
+    const StrictDifference off = Compare(basin.RenderPass(), plain);
     EXPECT_LE(off.Largest, 2) << level;
     EXPECT_EQ(basin.Mapper->GetNumberOfLostRays(), 0);
   }
@@ -147,7 +132,7 @@ TEST(RefractionPassVolume, PaneIsThePictureOfTheMapperAlone)
     }
     basin.Mapper->SetInterfaces(list);
     const ByteImage plain = basin.RenderPlain();
-    EXPECT_GT(Compare(once, plain).Pixels, 100);
+    EXPECT_GT(Compare(once, plain).PixelsBeyond, 100u);
     EXPECT_LE(Compare(basin.RenderPass(), plain).Largest, 2) << level;
     EXPECT_EQ(basin.Mapper->GetNumberOfLostRays(), 0);
   }
@@ -171,9 +156,9 @@ TEST(RefractionPassVolume, BesideTheMembraneItIsSeenAsItIs)
   Basin basin(0.2, 0.7);
   basin.Floor->VisibilityOff(); // without a membrane, the pass would draw it where there is none
   const ByteImage plain = basin.RenderPlain();
-  const Differences off = Compare(basin.RenderPass(), plain);
+  const StrictDifference off = Compare(basin.RenderPass(), plain);
   // At the membrane's border the pass decides by the pixel's centre, as rays do, up to rounding.
-  EXPECT_LE(off.Pixels, 8) << off.Largest;
+  EXPECT_LE(off.PixelsBeyond, 8u) << off.Largest;
 }
 
 TEST(RefractionPassVolume, FresnelTakesItsShare)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lighting in true space behind waves: pictures of a floor compared with photons through exact
 // waves, and waves without height compared with flat water.
+#include "StrictImage.h"
 #include "WavePool.h"
 
 #include <vtkAppendFilter.h>
@@ -22,17 +23,6 @@ using meniscus::reference::HeightField;
 
 namespace
 {
-
-/** Largest difference of two pictures in colours from 0 to 1. */
-double DifferenceOf(const ByteImage& a, const ByteImage& b)
-{
-  int largest = 0;
-  for (std::size_t i = 0; i < a.Rgb.size(); ++i)
-  {
-    largest = std::max(largest, std::abs(static_cast<int>(a.Rgb[i]) - static_cast<int>(b.Rgb[i])));
-  }
-  return largest / 255.0;
-}
 
 double MeanOf(const ByteImage& image)
 {
@@ -130,7 +120,7 @@ TEST(RefractionPassWavesLimit, RipplesLightAsFlatWater)
     const ByteImage byPlane = pool.Render();
     EXPECT_GT(MeanOf(byPlane), 0.05) << what;
     // Rounding to 8 bits twice.
-    EXPECT_LT(DifferenceOf(byTables, byPlane), 2.5 / 255.0) << what;
+    EXPECT_LE(CompareStrictly(byTables, byPlane, 0).Largest, 2) << what;
     pool.GetRenderer()->RemoveAllLights();
   };
   pool.AddLight(SunAt(45.0), 0.8, true);
@@ -185,7 +175,8 @@ TEST(RefractionPassWavesLimit, RipplesLightATorusAsFlatWater)
       const ByteImage byPlane = pool.Render();
       EXPECT_GT(MeanOf(byPlane), 0.02) << what;
       pool.Pass->SetNumberOfLightCells(100000);
-      EXPECT_LT(DifferenceOf(pool.Render(), byPlane), 2.5 / 255.0) << what << ", " << resolution;
+      EXPECT_LE(CompareStrictly(pool.Render(), byPlane, 0).Largest, 2)
+        << what << ", " << resolution;
     }
     pool.GetRenderer()->RemoveAllLights();
   };
@@ -267,7 +258,7 @@ TEST(RefractionPassWavesLimit, ObjectsOfAllKindsAreLit)
     {
       pool.Filter->SetImages(allImages ? vtkRefractedGeometryFilter::ALL_IMAGES
                                        : vtkRefractedGeometryFilter::FIRST_IMAGE);
-      EXPECT_LT(DifferenceOf(pool.Render(), right), 2.5 / 255.0)
+      EXPECT_LE(CompareStrictly(pool.Render(), right, 0).Largest, 2)
         << object->GetClassName() << " " << allImages;
     }
   }
@@ -286,11 +277,7 @@ TEST(RefractionPassWavesLimit, BehindAPaneTheLightOfBothSidesArrives)
   pool.Filter->GetInterfaces()->AddItem(back);
   vtkNew<vtkPolyData> lower;
   lower->DeepCopy(pool.Surface);
-  for (vtkIdType i = 0; i < lower->GetNumberOfPoints(); ++i)
-  {
-    const glm::dvec3 place = PointOf(lower, i);
-    lower->GetPoints()->SetPoint(i, place[0], -2.0, place[2]);
-  }
+  MapPoints(lower, [](const glm::dvec3& at) { return glm::dvec3(at.x, -2.0, at.z); });
   pool.Filter->AddMembraneData(lower);
   pool.Filter->SetImagesToFirstImage();
   pool.Pass->SetNumberOfLightCells(500);

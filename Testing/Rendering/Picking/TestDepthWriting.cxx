@@ -118,10 +118,7 @@ TEST(TetrahedraRayCastDepth, BehindRefractingSurfaces)
     double before = 1.0;
     for (const Plane& plane : planes)
     {
-      vtkNew<vtkPlaneSource> surface;
-      surface->SetOrigin(-9.0, -9.0, plane.Z);
-      surface->SetPoint1(9.0, -9.0, plane.Z);
-      surface->SetPoint2(-9.0, 9.0, plane.Z);
+      const auto surface = MakePlane(9.0, plane.Z, 1);
       surface->Update();
       mapper->AddMembraneData(surface->GetOutput());
       vtkNew<vtkRefractingInterface> item;

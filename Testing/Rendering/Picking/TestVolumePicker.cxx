@@ -135,10 +135,7 @@ TEST(VolumePicker, ThroughAPane)
   // Seen from above, rays meet the plane z = 3 first.
   for (const double z : { 3.0, 2.0 })
   {
-    vtkNew<vtkPlaneSource> plane;
-    plane->SetOrigin(-9.0, -9.0, z);
-    plane->SetPoint1(9.0, -9.0, z);
-    plane->SetPoint2(-9.0, 9.0, z);
+    const auto plane = MakePlane(9.0, z, 1);
     plane->Update();
     scene.Mapper()->AddMembraneData(plane->GetOutput());
   }
@@ -327,11 +324,7 @@ TEST(VolumePicker, CompositeInput)
   Grid back = MakeBlock(3, ConstantField(2.0));
   vtkNew<vtkMultiBlockDataSet> inner;
   inner->SetBlock(1, back);
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  vtkNew<vtkPolyData> surface;
-  blocks->SetBlock(0, surface);
-  blocks->SetBlock(1, front);
-  blocks->SetBlock(2, inner);
+  const auto blocks = MakeBlocks({ vtkNew<vtkPolyData>(), front, inner });
   PickScene scene(front, MakeRamp(2.0));
   scene.Mapper()->SetInputData(blocks);
   ASSERT_EQ(scene.Pick(), 1);

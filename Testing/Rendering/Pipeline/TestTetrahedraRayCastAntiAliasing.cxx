@@ -314,10 +314,7 @@ TEST(TetrahedraRayCastAntiAliasing, OpaqueObjectsInside)
   vtkNew<vtkSphereSource> sphere;
   sphere->SetRadius(0.5);
   sphere->SetCenter(0.3, 0.4, 0.9);
-  vtkNew<vtkPolyDataMapper> polygons;
-  polygons->SetInputConnection(sphere->GetOutputPort());
-  vtkNew<vtkActor> ball;
-  ball->SetMapper(polygons);
+  const auto ball = MakeActor(sphere->GetOutputPort());
   scene.Scene.GetRenderer()->AddActor(ball);
   scene.Draw(0.25);
   scene.Draw(0.25);

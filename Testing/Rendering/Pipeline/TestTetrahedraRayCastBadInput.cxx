@@ -32,11 +32,7 @@ struct Outcome
 Outcome Render(RayCastScene& scene)
 {
   vtkNew<vtkCubeSource> cube;
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(cube->GetOutputPort());
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  scene.GetRenderer()->AddActor(actor);
+  scene.GetRenderer()->AddActor(MakeActor(cube->GetOutputPort()));
   scene.GetRenderer()->SetBackground(0.2, 0.3, 0.4);
   LookAt(scene.GetRenderer(), Bounds, 30.0, 20.0);
 
@@ -129,8 +125,7 @@ TEST(TetrahedraRayCastBadInput, ScalarsThatAreMissing)
 
 TEST(TetrahedraRayCastBadInput, WrongArrayName)
 {
-  const Grid grid = MakeBlock(2, WavyField(1.0));
-  RayCastScene scene(grid, Smooth(), Size, Size);
+  RayCastScene scene(MakeBlock(2, WavyField(1.0)), Smooth(), Size, Size);
   scene.GetRayCaster()->SetScalarModeToUsePointFieldData();
   scene.GetRayCaster()->SelectScalarArray("NoSuchArray");
   ExpectError(scene, { "NoSuchArray" });
@@ -331,8 +326,7 @@ TEST(TetrahedraRayCastBadInput, TransferFunctionWithoutNodes)
 
 TEST(TetrahedraRayCastBadInput, RecoversFromAnError)
 {
-  const Grid grid = MakeBlock(3, WavyField(2.0));
-  RayCastScene scene(grid, Smooth(), Size, Size);
+  RayCastScene scene(MakeBlock(3, WavyField(2.0)), Smooth(), Size, Size);
   scene.GetRayCaster()->SetScalarModeToUsePointFieldData();
   scene.GetRayCaster()->SelectScalarArray("NoSuchArray");
   LookAt(scene.GetRenderer(), Bounds, 30.0, 20.0);

@@ -159,8 +159,8 @@ TEST(TetrahedraRayCastClosedForm, LinearField)
 
 TEST(TetrahedraRayCastClosedForm, TransparentFunctionLeavesTheBackground)
 {
-  const Grid grid = MakeBlock(3, RadialField());
-  RayCastScene scene(grid, MakeConstantProperty(0.0, 1, 1, 1, 1.0), Size, Size);
+  RayCastScene scene(
+    MakeBlock(3, RadialField()), MakeConstantProperty(0.0, 1, 1, 1, 1.0), Size, Size);
   MakePlace(scene, Placements[0]);
   for (const float value : scene.RenderFloat().Rgba)
   {

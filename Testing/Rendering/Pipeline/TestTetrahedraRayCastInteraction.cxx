@@ -26,14 +26,7 @@ vtkSmartPointer<vtkVolumeProperty> Smooth()
 
 vtkSmartPointer<vtkActor> AddPlane(vtkRenderer* renderer, double z, double opacity)
 {
-  vtkNew<vtkPlaneSource> source;
-  source->SetOrigin(-4.0, -4.0, z);
-  source->SetPoint1(4.0, -4.0, z);
-  source->SetPoint2(-4.0, 4.0, z);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(source->GetOutputPort());
-  auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
+  auto actor = MakeActor(MakePlane(4.0, z, 1)->GetOutputPort());
   actor->GetProperty()->SetLighting(false);
   actor->GetProperty()->SetColor(0.2, 0.8, 0.4);
   actor->GetProperty()->SetOpacity(opacity);
@@ -101,8 +94,7 @@ TEST(TetrahedraRayCastPicking, TheVolumeIsFoundWhereItIsVisible)
 
 TEST(TetrahedraRayCastPicking, OpaqueGeometryHidesIt)
 {
-  const Grid grid = MakeBlock(4, WavyField(3.0));
-  RayCastScene scene(grid, Smooth(), Size, Size);
+  RayCastScene scene(MakeBlock(4, WavyField(3.0)), Smooth(), Size, Size);
   LookAt(scene.GetRenderer(), Bounds, 0.0, 0.0);
   const auto plane = AddPlane(scene.GetRenderer(), 1.5, 1.0);
   EXPECT_EQ(ExpectPicks(scene, plane, vtkDataObject::FIELD_ASSOCIATION_CELLS).Volume, 0u);
@@ -114,16 +106,15 @@ TEST(TetrahedraRayCastPicking, OpaqueGeometryHidesIt)
 
 TEST(TetrahedraRayCastPicking, TransparentPartsAreNotFound)
 {
-  const Grid grid = MakeBlock(4, WavyField(3.0));
-  RayCastScene scene(grid, MakeConstantProperty(0.0, 1, 1, 1, 1.0), Size, Size);
+  RayCastScene scene(
+    MakeBlock(4, WavyField(3.0)), MakeConstantProperty(0.0, 1, 1, 1, 1.0), Size, Size);
   LookAt(scene.GetRenderer(), Bounds, 30.0, 20.0);
   EXPECT_EQ(ExpectPicks(scene, nullptr, vtkDataObject::FIELD_ASSOCIATION_CELLS).Volume, 0u);
 }
 
 TEST(TetrahedraRayCastPicking, PictureAfterwardsIsTheSame)
 {
-  const Grid grid = MakeBlock(4, WavyField(3.0));
-  RayCastScene scene(grid, Smooth(), Size, Size);
+  RayCastScene scene(MakeBlock(4, WavyField(3.0)), Smooth(), Size, Size);
   LookAt(scene.GetRenderer(), Bounds, 30.0, 20.0);
   const ByteImage before = scene.RenderBytes();
   ExpectPicks(scene, nullptr, vtkDataObject::FIELD_ASSOCIATION_CELLS);
@@ -276,8 +267,7 @@ TEST(TetrahedraRayCastDetail, RaysOfAMovingImageEndEarlier)
 
 TEST(TetrahedraRayCastDetail, LevelsOfDetailProp)
 {
-  const Grid grid = MakeBlock(6, WavyField(3.0));
-  RayCastScene scene(grid, Smooth(), Size, Size);
+  RayCastScene scene(MakeBlock(6, WavyField(3.0)), Smooth(), Size, Size);
   LookAt(scene.GetRenderer(), Bounds, 30.0, 20.0);
   const ByteImage truth = scene.RenderBytes();
   EXPECT_GT(scene.GetRayCaster()->GetTimeToDraw(), 0.0);
@@ -319,8 +309,7 @@ TEST(TetrahedraRayCastNeighbors, TranslucentGeometry)
 
 TEST(TetrahedraRayCastNeighbors, PeeledVolumesAreLeftOutWithAWarning)
 {
-  const Grid grid = MakeBlock(6, WavyField(3.0));
-  RayCastScene scene(grid, Smooth(), Size, Size);
+  RayCastScene scene(MakeBlock(6, WavyField(3.0)), Smooth(), Size, Size);
   LookAt(scene.GetRenderer(), Bounds, 0.0, 0.0);
   scene.GetRenderer()->SetUseDepthPeeling(true);
   scene.GetRenderer()->SetUseDepthPeelingForVolumes(true);

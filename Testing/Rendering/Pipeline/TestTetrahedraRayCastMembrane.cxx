@@ -138,8 +138,8 @@ TEST(TetrahedraRayCastMembrane, ThroughWaves)
 TEST(TetrahedraRayCastMembrane, ConstantMediumUnderAPlane)
 {
   // Closed form: 1 - exp(-tau l), with the length l of the refracted ray in the box.
-  const Grid grid = MakeBlock(4, ConstantField(0.5));
-  RayCastScene scene(grid, MakeConstantProperty(0.7, 1, 1, 1, 0.8), Size, Size);
+  RayCastScene scene(
+    MakeBlock(4, ConstantField(0.5)), MakeConstantProperty(0.7, 1, 1, 1, 0.8), Size, Size);
   const MembraneCase plane = MakePlaneCase(1.5, 4.0, 2);
   scene.GetRayCaster()->SetMembraneData(plane.Mesh);
   LookAt(scene.GetRenderer(), Block, 20.0, 40.0);
@@ -205,13 +205,9 @@ TEST(TetrahedraRayCastMembrane, CellsFlatterThanRounding)
 {
   // Two layers of cells, which rounding may invert, around the membrane: rays begin in them.
   const Grid grid = MakeBlock(6, WavyField(3.0));
-  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
-  {
-    double x[3];
-    grid->GetPoint(p, x);
-    x[1] = std::fabs(x[1]) < 0.5 ? 3e-8 * x[1] : x[1];
-    grid->GetPoints()->SetPoint(p, x);
-  }
+  MapPoints(grid,
+    [](const glm::dvec3& x)
+    { return glm::dvec3(x.x, std::fabs(x.y) < 0.5 ? 3e-8 * x.y : x.y, x.z); });
   for (const double level : { 0.0, 5e-9, -2e-8 })
   {
     MembraneTest test(MakePlaneCase(level, 4.0, 2), grid);

@@ -458,8 +458,8 @@ TEST(TetrahedraRayCastMembraneMedium, ExtremeCoefficientsEnd)
 
 TEST(TetrahedraRayCastMembraneMedium, StraightRaysAndOtherModesSeeNoMedium)
 {
-  const Grid grid = MakeBlock(4, WavyField(3.0));
-  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
+  RayCastScene scene(
+    MakeBlock(4, WavyField(3.0)), MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
   LookAt(scene.GetRenderer(), Block, 20.0, 40.0);
   const Medium& medium = Media().front();
   const Medium clear{ "clear", false, { 0.0, 0.0, 0.0 }, { 0.0, 1.0 }, { 0.3, 0.3, 0.3 } };

@@ -220,8 +220,8 @@ TEST(TetrahedraRayCastMembraneStack, SmallPaneAndTotalReflection)
 
 TEST(TetrahedraRayCastMembraneStack, ConcentricDomeIsNotSeen)
 {
-  const Grid grid = MakeBlock(6, WavyField(3.0));
-  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
+  RayCastScene scene(
+    MakeBlock(6, WavyField(3.0)), MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
   LookAt(scene.GetRenderer(), Block, 30.0, 40.0);
   // In water the mesh is drawn nearer to the eye (Eq. 2.4); the near plane must not cut it.
   scene.GetRenderer()->GetActiveCamera()->SetClippingRange(0.3, 20.0);
@@ -243,8 +243,8 @@ TEST(TetrahedraRayCastMembraneStack, ConcentricDomeIsNotSeen)
 
 TEST(TetrahedraRayCastMembraneStack, EqualIndicesChangeNothing)
 {
-  const Grid grid = MakeBlock(6, WavyField(3.0), Torus(0.6, 0.3));
-  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
+  RayCastScene scene(MakeBlock(6, WavyField(3.0), Torus(0.6, 0.3)),
+    MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   LookAt(scene.GetRenderer(), Block, 30.0, 40.0);
   const FloatImage straight = scene.RenderFloat();

@@ -132,10 +132,7 @@ TEST_F(TetrahedraRayCastRefinement, GeometryMovesBetweenGivenUpFrames)
 {
   this->Mapper()->SetImageSampleDistance(0.5f);
   vtkNew<vtkSphereSource> sphere;
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(sphere->GetOutputPort());
-  vtkNew<vtkActor> ball;
-  ball->SetMapper(mapper);
+  const auto ball = MakeActor(sphere->GetOutputPort());
   this->Scene.GetRenderer()->AddActor(ball);
   for (int frames = 0; frames < 12; ++frames)
   {

@@ -20,11 +20,7 @@ vtkSmartPointer<vtkActor> MakeBall(double radius)
 {
   vtkNew<vtkSphereSource> sphere;
   sphere->SetRadius(radius);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(sphere->GetOutputPort());
-  auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  return actor;
+  return MakeActor(sphere->GetOutputPort());
 }
 
 class TetrahedraRayCastRepeats : public ::testing::Test

@@ -19,9 +19,8 @@ struct Block
 
   Block()
   {
-    double range[2];
-    this->Mesh->GetPointData()->GetScalars()->GetFiniteRange(range);
-    this->Property = MakeProperty(FunctionKind::Smooth, range, DiagonalOf(this->Mesh->GetBounds()));
+    this->Property =
+      MakeProperty(FunctionKind::Smooth, this->Mesh, DiagonalOf(this->Mesh->GetBounds()));
   }
 };
 

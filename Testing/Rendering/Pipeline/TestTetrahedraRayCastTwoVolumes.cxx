@@ -48,11 +48,8 @@ FloatImage DrawTwo(bool frontFirst, bool fromBack, bool isSorted)
 
 FloatImage DrawBlocks(bool fromBack)
 {
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, MakeBlockAt(1.2));
-  blocks->SetBlock(1, MakeBlockAt(-1.2));
   RayCastScene scene(nullptr, MakeProperty(FunctionKind::Smooth, Range, 0.5), Size, Size);
-  scene.GetRayCaster()->SetInputDataObject(blocks);
+  scene.GetRayCaster()->SetInputDataObject(MakeBlocks({ MakeBlockAt(1.2), MakeBlockAt(-1.2) }));
   LookAt(scene.GetRenderer(), Bounds, fromBack ? 200.0 : 20.0, 10.0);
   return scene.RenderFloat();
 }

@@ -83,10 +83,7 @@ void AddBall(vtkRenderer* renderer)
   ball->SetRadius(0.6);
   ball->SetThetaResolution(24);
   ball->SetPhiResolution(24);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(ball->GetOutputPort());
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
+  const auto actor = MakeActor(ball->GetOutputPort());
   actor->GetProperty()->SetColor(1.0, 0.3, 0.2);
   renderer->AddActor(actor);
 }

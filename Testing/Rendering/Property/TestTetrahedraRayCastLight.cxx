@@ -39,9 +39,7 @@ Grid MakeGradedBlock()
 // single cell is.
 TracedComparison CompareLit(vtkUnstructuredGrid* grid, int view, double density)
 {
-  double range[2];
-  grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-  const auto property = MakeProperty(FunctionKind::Smooth, range, DiagonalOf(grid->GetBounds()));
+  const auto property = MakeProperty(FunctionKind::Smooth, grid, DiagonalOf(grid->GetBounds()));
   property->SetScalarOpacityUnitDistance(property->GetScalarOpacityUnitDistance() / density);
   SetMaterial(property);
   RayCastScene scene(grid, property, Size, Size);

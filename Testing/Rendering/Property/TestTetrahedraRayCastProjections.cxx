@@ -83,13 +83,11 @@ TEST(TetrahedraRayCastProjections, CurvedFieldsAndHoles)
   for (const bool hollow : { false, true })
   {
     const Grid grid = MakeBlock(9, WavyField(3.0), hollow ? Shell(0.5, 0.95) : Region());
-    double range[2];
-    grid->GetPointData()->GetScalars()->GetFiniteRange(range);
     for (const ProjectionMode& mode : ProjectionModes)
     {
       for (const FunctionKind kind : { FunctionKind::Smooth, FunctionKind::Peaked })
       {
-        RayCastScene scene(grid, MakeProperty(kind, range, 3.4), Size, Size);
+        RayCastScene scene(grid, MakeProperty(kind, grid, 3.4), Size, Size);
         scene.GetRayCaster()->SetBlendMode(mode.Number);
         LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0, 1.0, hollow);
         ExpectReference(scene, mode,
@@ -103,11 +101,9 @@ TEST(TetrahedraRayCastProjections, CurvedFieldsAndHoles)
 TEST(TetrahedraRayCastProjections, ScaledAndMirroredVolume)
 {
   const Grid grid = MakeBlock(6, WavyField(3.0));
-  double range[2];
-  grid->GetPointData()->GetScalars()->GetFiniteRange(range);
   for (const ProjectionMode& mode : ProjectionModes)
   {
-    RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
+    RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, grid, 3.4), Size, Size);
     scene.GetRayCaster()->SetBlendMode(mode.Number);
     scene.GetVolume()->SetScale(-0.8, 1.4, 1.0);
     LookAt(scene.GetRenderer(), scene.GetVolume()->GetBounds(), 30.0, 20.0);
@@ -133,9 +129,7 @@ TEST(TetrahedraRayCastProjections, ModesCanBeSwitched)
 {
   // With composite blending again, opacity is an attenuation.
   const Grid grid = MakeBlock(4, WavyField(3.0));
-  double range[2];
-  grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
+  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, grid, 3.4), Size, Size);
   const FloatImage first = scene.RenderFloat();
   for (const ProjectionMode& mode : ProjectionModes)
   {

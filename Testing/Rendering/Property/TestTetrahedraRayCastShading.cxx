@@ -191,8 +191,8 @@ TEST(TetrahedraRayCastIsosurfaces, SeveralTransparentSurfaces)
 {
   for (const auto& [shade, gradients] : Product(List(false, true), List(0, 1)))
   {
-    const Grid grid = MakeBlock(8, WavyField(3.0), gradients ? Region() : Torus(0.6, 0.35));
-    RayCastScene scene(grid, SurfaceProperty(shade), Size, Size);
+    RayCastScene scene(MakeBlock(8, WavyField(3.0), gradients ? Region() : Torus(0.6, 0.35)),
+      SurfaceProperty(shade), Size, Size);
     scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
     scene.GetRayCaster()->SetGradients(gradients);
     AddLights(scene.GetRenderer());
@@ -203,8 +203,7 @@ TEST(TetrahedraRayCastIsosurfaces, SeveralTransparentSurfaces)
 
 TEST(TetrahedraRayCastIsosurfaces, TransformedVolumeAndClippedRange)
 {
-  const Grid grid = MakeBlock(6, WavyField(3.0));
-  RayCastScene scene(grid, SurfaceProperty(true), Size, Size);
+  RayCastScene scene(MakeBlock(6, WavyField(3.0)), SurfaceProperty(true), Size, Size);
   scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
   scene.GetVolume()->SetScale(-0.7, 1.5, 1.0);
   scene.GetVolume()->RotateWXYZ(37.0, 0.3, 1.0, 0.2);
@@ -341,8 +340,8 @@ TEST(TetrahedraRayCastIsosurfaces, FacesOfCellDataAreLitAlikeOnEdges)
 
 TEST(TetrahedraRayCastIsosurfaces, NoValues)
 {
-  const Grid grid = MakeBlock(3, WavyField(3.0));
-  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
+  RayCastScene scene(
+    MakeBlock(3, WavyField(3.0)), MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
   scene.GetVolume()->GetProperty()->GetIsoSurfaceValues()->SetNumberOfContours(0);
   scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
   for (const float value : scene.RenderFloat().Rgba)
@@ -365,8 +364,7 @@ TEST(TetrahedraRayCastShading, CellGradientsAreExact)
 
 TEST(TetrahedraRayCastShading, GradientOpacityAlone)
 {
-  const Grid grid = MakeBlock(6, WavyField(3.0));
-  RayCastScene scene(grid, MediumProperty(false, true), 72, 72);
+  RayCastScene scene(MakeBlock(6, WavyField(3.0)), MediumProperty(false, true), 72, 72);
   scene.GetRayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
   scene.GetVolume()->SetScale(0.5, 1.0, 2.0);
   LookAt(scene.GetRenderer(), scene.GetVolume()->GetBounds(), 30.0, 20.0);
@@ -402,8 +400,7 @@ TEST(TetrahedraRayCastShading, VertexGradientsComeCloserOnFinerMeshes)
   double last = 0.0;
   for (const int cubes : { 4, 8, 16 })
   {
-    const Grid grid = MakeBlock(cubes, WavyField(2.0));
-    RayCastScene scene(grid, MediumProperty(true, true), 64, 64);
+    RayCastScene scene(MakeBlock(cubes, WavyField(2.0)), MediumProperty(true, true), 64, 64);
     AddParallelLight(scene.GetRenderer(), 4.0, 2.0, 1.0);
     const TracedComparison comparison = CompareShadedMedium(scene, MembraneCase());
     RecordProperty("cubes" + std::to_string(cubes), comparison.GetText());

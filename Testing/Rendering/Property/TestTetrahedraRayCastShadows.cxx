@@ -573,9 +573,7 @@ TEST_P(TetrahedraRayCastShadowRays, MatchesBruteForce)
   {
     GTEST_SKIP() << mesh << ".vtu not found: set MENISCUS_DATA_DIR";
   }
-  double range[2];
-  grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-  const auto property = MakeProperty(FunctionKind::Smooth, range, DiagonalOf(grid->GetBounds()));
+  const auto property = MakeProperty(FunctionKind::Smooth, grid, DiagonalOf(grid->GetBounds()));
   property->ShadeOn();
   property->SetAmbient(0.4);
   property->SetDiffuse(0.6);

@@ -22,10 +22,7 @@ constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
 inline Object MakePlane(double z, double half)
 {
-  vtkNew<vtkPlaneSource> plane;
-  plane->SetOrigin(-half, -half, z);
-  plane->SetPoint1(half, -half, z);
-  plane->SetPoint2(-half, half, z);
+  const auto plane = MakePlane(half, z, 1);
   plane->SetResolution(7, 5);
   plane->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   plane->Update();

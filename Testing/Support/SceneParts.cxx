@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "WaterParts.h"
+#include "SceneParts.h"
 
 namespace meniscus::test
 {
