@@ -31,6 +31,117 @@ struct NormalKernel
   }
 };
 
+/** A place in the facet's plane, and the height of the patch's point there. */
+struct PlaceOnPatch
+{
+  float X;
+  float Y;
+  float Height;
+};
+
+/** A ray about the plane of a facet, in single precision. Lengths are in units of its size. */
+struct RayAtFacet
+{
+  RayAtFacet(const PatchStart& start, const PatchIntersectionBatch& lanes, int i)
+  {
+    const glm::vec3 direction(lanes.GetDirection(i));
+    this->PerHeight = 1.0f / glm::dot(start.Up, direction);
+    this->ByX = this->PerHeight * glm::dot(start.ByX, direction);
+    this->ByY = this->PerHeight * glm::dot(start.ByY, direction);
+    this->X = static_cast<float>(lanes.X[i]);
+    this->Y = static_cast<float>(lanes.Y[i]);
+  }
+
+  /** Depth per height above the plane. */
+  float PerHeight;
+  float ByX;
+  float ByY;
+  /** Intersection with the plane. */
+  float X;
+  float Y;
+};
+
+/** Sets the lane's place unless the patch is far from flat for the ray. */
+void SetPlace(const PatchStart& start, const RayAtFacet& ray, const PlaceOnPatch& place,
+  PatchIntersectionBatch& lanes, int i)
+{
+  constexpr float farthest = 0.25f;
+  const bool isNearX = std::fabs(place.X - ray.X) < farthest;
+  const bool isNearY = std::fabs(place.Y - ray.Y) < farthest;
+  const bool isNear = isNearX & isNearY; // without a branch
+  lanes.PatchX[i] = lanes.X[i] + static_cast<double>(isNear ? place.X - ray.X : 0.0f);
+  lanes.PatchY[i] = lanes.Y[i] + static_cast<double>(isNear ? place.Y - ray.Y : 0.0f);
+  lanes.Behind[i] = start.Size * static_cast<double>(isNear ? place.Height * ray.PerHeight : 0.0f);
+}
+
+/** The shift from the plane to the patch along its normal, and the normal, at a place. */
+struct ShiftAt
+{
+  ShiftAt(const PatchStart& start, float x, float y)
+  {
+    const float c = 1.0f - x - y;
+    const float products[3] = { x * y, y * c, c * x };
+    this->Forms[0] = start.Symmetric[0] + start.Asymmetric[0] * (x - y);
+    this->Forms[1] = start.Symmetric[1] + start.Asymmetric[1] * (y - c);
+    this->Forms[2] = start.Symmetric[2] + start.Asymmetric[2] * (c - x);
+    const float form =
+      products[0] * this->Forms[0] + products[1] * this->Forms[1] + products[2] * this->Forms[2];
+    this->Up = start.AlongUp.At(c, x, y, products);
+    this->AlongX = start.AlongX.At(c, x, y, products);
+    this->AlongY = start.AlongY.At(c, x, y, products);
+    // 2 / (l + l^2) for a normal of a length l near 1, to the first order in l^2 - 1.
+    const float squared = this->Up * this->Up + this->AlongX * this->AlongX * start.Sides[0] +
+      this->AlongY * (this->AlongY * start.Sides[1] + this->AlongX * start.Sides[2]);
+    this->PerForm = 1.75f - 0.75f * squared;
+    this->Shift = form * this->PerForm;
+  }
+
+  float Forms[3];
+  float PerForm;
+  float Shift;
+  float Up;
+  float AlongX;
+  float AlongY;
+};
+
+/**
+ * Largest spread of a patch's normals s for GentleStartKernel. Shifts are up to about s / 4 of the
+ * longest edge. A ray of the slant t moves by up to m = g t s / 4 along the facet, g altitudes of
+ * which are as long as that edge. Left out are the change of the normals, by 2 s, which moves the
+ * place by g s / 4 * 2 s (1 + t) m, and half of m^2 times the second derivative of the shift along
+ * the ray, 2 g t s: together less than (g t s)^3 / 3. Rays with a longer last step than Newton's
+ * method may have need two steps; none of those does that meet the dome or the lens of the
+ * benchmark.
+ */
+constexpr double LargestGentleSpread = 0.04;
+
+/** One step of Newton's method from the plane, with the slope of the shift at a fixed normal. */
+struct GentleStartKernel
+{
+  PatchStart Start;
+
+  void operator()(PatchIntersectionBatch& lanes, int i) const
+  {
+    const PatchStart& start = this->Start;
+    const RayAtFacet ray(start, lanes, i);
+    const float x = ray.X;
+    const float y = ray.Y;
+    const float c = 1.0f - x - y;
+    const ShiftAt at(start, x, y);
+    const float cross = c * x * start.Asymmetric[2];
+    const float formByX = y * (at.Forms[0] - at.Forms[1]) + (c - x) * at.Forms[2] +
+      x * y * start.Asymmetric[0] + y * c * start.Asymmetric[1] - 2.0f * cross;
+    const float formByY = x * (at.Forms[0] - at.Forms[2]) + (c - y) * at.Forms[1] -
+      x * y * start.Asymmetric[0] + 2.0f * y * c * start.Asymmetric[1] - cross;
+    // Moves per shift.
+    const float moveX = at.Up * ray.ByX - at.AlongX;
+    const float moveY = at.Up * ray.ByY - at.AlongY;
+    const float slope = at.PerForm * (formByX * moveX + formByY * moveY);
+    const float shift = at.Shift / (1.0f - slope);
+    SetPlace(start, ray, { x + shift * moveX, y + shift * moveY, shift * at.Up }, lanes, i);
+  }
+};
+
 struct StartKernel
 {
   PatchStart Start;
@@ -38,58 +149,30 @@ struct StartKernel
   void operator()(PatchIntersectionBatch& lanes, int i) const
   {
     const PatchStart& start = this->Start;
-    const glm::vec3 direction(lanes.GetDirection(i));
-    // Per height above the plane; lengths are in units of the facet's size.
-    const float perHeight = 1.0f / glm::dot(start.Up, direction);
-    const float rayByX = perHeight * glm::dot(start.ByX, direction);
-    const float rayByY = perHeight * glm::dot(start.ByY, direction);
-    const auto flatX = static_cast<float>(lanes.X[i]);
-    const auto flatY = static_cast<float>(lanes.Y[i]);
-    float x = flatX;
-    float y = flatY;
-    float height = 0.0f;
-    float before[3] = { x, y, height };
+    const RayAtFacet ray(start, lanes, i);
+    PlaceOnPatch place{ ray.X, ray.Y, 0.0f };
+    PlaceOnPatch before = place;
     float lastMove = 0.0f;
     for (int step = 0; step < Steps; ++step)
     {
-      lastMove = height - before[2];
-      before[0] = x;
-      before[1] = y;
-      before[2] = height;
-      const float c = 1.0f - x - y;
-      const float products[3] = { x * y, y * c, c * x };
-      const float form = products[0] * (start.Symmetric[0] + start.Asymmetric[0] * (x - y)) +
-        products[1] * (start.Symmetric[1] + start.Asymmetric[1] * (y - c)) +
-        products[2] * (start.Symmetric[2] + start.Asymmetric[2] * (c - x));
-      const float up = start.AlongUp.At(c, x, y, products);
-      const float besideX = start.AlongX.At(c, x, y, products);
-      const float besideY = start.AlongY.At(c, x, y, products);
-      // 2 / (l + l^2) for a normal of a length l near 1, to the first order in l^2 - 1.
-      const float squared = up * up + besideX * besideX * start.Sides[0] +
-        besideY * (besideY * start.Sides[1] + besideX * start.Sides[2]);
-      const float shift = form * (1.75f - 0.75f * squared);
-      height = shift * up;
-      x = flatX + (height * rayByX - shift * besideX);
-      y = flatY + (height * rayByY - shift * besideY);
+      lastMove = place.Height - before.Height;
+      before = place;
+      const ShiftAt at(start, place.X, place.Y);
+      place.Height = at.Shift * at.Up;
+      place.X = ray.X + (place.Height * ray.ByX - at.Shift * at.AlongX);
+      place.Y = ray.Y + (place.Height * ray.ByY - at.Shift * at.AlongY);
     }
     // Steps shrink by a factor that hardly changes: the sum of all that would follow (Aitken).
-    const float move = height - before[2];
+    const float move = place.Height - before.Height;
     const float difference = lastMove - move;
     const float rest = difference != 0.0f ? move / difference : 0.0f;
-    x += rest * (x - before[0]);
-    y += rest * (y - before[1]);
-    height += rest * move;
-    // Otherwise the patch is far from flat for this ray.
-    const bool isNearX = std::fabs(x - flatX) < Farthest;
-    const bool isNearY = std::fabs(y - flatY) < Farthest;
-    const bool isNear = isNearX & isNearY; // without a branch
-    lanes.PatchX[i] = lanes.X[i] + static_cast<double>(isNear ? x - flatX : 0.0f);
-    lanes.PatchY[i] = lanes.Y[i] + static_cast<double>(isNear ? y - flatY : 0.0f);
-    lanes.Behind[i] = start.Size * static_cast<double>(isNear ? height * perHeight : 0.0f);
+    place.X += rest * (place.X - before.X);
+    place.Y += rest * (place.Y - before.Y);
+    place.Height += rest * move;
+    SetPlace(start, ray, place, lanes, i);
   }
 
   static constexpr int Steps = 2;
-  static constexpr float Farthest = 0.25f;
 };
 
 struct PatchKernel
@@ -199,7 +282,8 @@ void SetNormals(const CurvedPatch& patch, InstructionSet set, PatchIntersectionB
 }
 
 //------------------------------------------------------------------------------
-PatchStart::PatchStart(const CurvedPatch& patch, const FacetPlane& plane, double size)
+PatchStart::PatchStart(
+  const CurvedPatch& patch, const FacetPlane& plane, double size, double spread)
   : Size(size)
   , Up(plane.Normal / glm::length(plane.Normal))
   , ByX(size * plane.ByX)
@@ -228,12 +312,20 @@ PatchStart::PatchStart(const CurvedPatch& patch, const FacetPlane& plane, double
     this->Symmetric[k] = static_cast<float>(patch.Symmetric[k] / size);
     this->Asymmetric[k] = static_cast<float>(patch.Asymmetric[k] / size);
   }
+  this->IsGentle = spread <= LargestGentleSpread;
 }
 
 //------------------------------------------------------------------------------
 void StartNearPatch(const PatchStart& start, InstructionSet set, PatchIntersectionBatch& lanes)
 {
-  RunLanes(StartKernel{ start }, set, lanes);
+  if (start.IsGentle)
+  {
+    RunLanes(GentleStartKernel{ start }, set, lanes);
+  }
+  else
+  {
+    RunLanes(StartKernel{ start }, set, lanes);
+  }
 }
 
 //------------------------------------------------------------------------------

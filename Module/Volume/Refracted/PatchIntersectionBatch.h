@@ -32,8 +32,9 @@ struct FacetPlane
   /** Intersection with a ray. */
   struct Meeting
   {
-    /** Component of the direction along the normal. */
+    /** Component of the direction along the normal, and its reciprocal. */
     double Along;
+    double Inverse;
     double Depth;
     /** Barycentric coordinates. */
     double X;
@@ -44,7 +45,8 @@ struct FacetPlane
     Meeting meeting;
     const glm::dvec3 toCorner = this->Corner - start;
     meeting.Along = glm::dot(this->Normal, direction);
-    meeting.Depth = glm::dot(this->Normal, toCorner) / meeting.Along;
+    meeting.Inverse = 1.0 / meeting.Along;
+    meeting.Depth = glm::dot(this->Normal, toCorner) * meeting.Inverse;
     const glm::dvec3 inPlane = meeting.Depth * direction - toCorner;
     meeting.X = glm::dot(inPlane, this->ByX);
     meeting.Y = glm::dot(inPlane, this->ByY);
@@ -171,8 +173,11 @@ struct PatchStart
   };
 
   PatchStart() = default;
-  /** @param size length of the facet's longest edge. */
-  PatchStart(const CurvedPatch& patch, const FacetPlane& plane, double size);
+  /**
+   * @param size length of the facet's longest edge.
+   * @param spread bound of the difference between the patch's normals and that of the plane.
+   */
+  PatchStart(const CurvedPatch& patch, const FacetPlane& plane, double size, double spread);
 
   double Size;
   /** The plane's unit normal, and the gradients of the barycentric coordinates. */
@@ -186,6 +191,8 @@ struct PatchStart
   Form AlongY;
   float Symmetric[3];
   float Asymmetric[3];
+  /** True if the normals differ so little that one step leads close enough. */
+  bool IsGentle;
 };
 
 /**

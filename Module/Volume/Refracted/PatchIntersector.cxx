@@ -59,7 +59,7 @@ const PatchStart& PatchIntersector::GetStart() const
 {
   if (!this->HasStart)
   {
-    this->Start = PatchStart(this->Patch, this->Plane, this->Size);
+    this->Start = PatchStart(this->Patch, this->Plane, this->Size, this->GetReach().Spread);
     this->HasStart = true;
   }
   return this->Start;

@@ -94,7 +94,7 @@ struct ReachKernel
     rays.Depth[ray] = meeting.Depth;
     rays.X[ray] = meeting.X;
     rays.Y[ray] = meeting.Y;
-    rays.Slant[ray] = rays.Length[ray] * std::fabs(patch.NormalLength / meeting.Along);
+    rays.Slant[ray] = rays.Length[ray] * std::fabs(patch.NormalLength * meeting.Inverse);
     const double facing = rays.Facing[ray] * patch.Front * meeting.Along;
     const bool isAverted = facing < -patch.Spread * patch.NormalLength * rays.Length[ray];
     const bool meets =

@@ -127,7 +127,7 @@ struct PatchReach
   bool MayMeet(const FacetPlane::Meeting& meeting, const glm::dvec3& direction, double first,
     double last) const
   {
-    const double perHeight = this->NormalLength / meeting.Along;
+    const double perHeight = this->NormalLength * meeting.Inverse;
     // Depths behind the plane between which the ray is at the heights of the patch.
     const double low = this->Low * perHeight;
     const double high = this->High * perHeight;

@@ -283,6 +283,78 @@ TEST(RayBlock, IntersectionsAreWithinTheirBound)
   EXPECT_LT(largest, 1e-9);
 }
 
+/** Starts on patches whose normals differ little are as close as GentleStartKernel promises. */
+TEST(RayBlock, StartsAreNearPatches)
+{
+  Random random(47);
+  int gentle = 0;
+  int others = 0;
+  for (const int cells : { 3, 13, 21, 34, 55 })
+  {
+    const Sheet sheet(Cap, cells);
+    const auto facets = static_cast<std::int32_t>(sheet.Surface.GetFacets().size());
+    for (int i = 0; i < 200; ++i)
+    {
+      const CurvedPatch patch =
+        sheet.Patches.GetPatch(static_cast<std::int32_t>(random(0.0, 0.999) * facets));
+      const glm::dvec3 u = patch.Corner[1] - patch.Corner[0];
+      const glm::dvec3 v = patch.Corner[2] - patch.Corner[0];
+      const glm::dvec3 normal = glm::cross(u, v);
+      const double squared = glm::dot(normal, normal);
+      const FacetPlane plane{ patch.Corner[0], normal, glm::cross(v, normal) / squared,
+        glm::cross(normal, u) / squared };
+      const glm::dvec3 up = normal / std::sqrt(squared);
+      const double steepest = patch.GetSize() *
+        std::max(
+          { glm::length(plane.ByX), glm::length(plane.ByY), glm::length(plane.ByX + plane.ByY) });
+      double spread = 0.0;
+      for (const glm::dvec3& corner : patch.Normal)
+      {
+        spread =
+          std::max(spread, glm::length(glm::dot(up, corner) < 0.0 ? up + corner : up - corner));
+      }
+      PatchIntersectionBatch lanes;
+      for (int ray = 0; ray < PatchIntersectionBatch::Size; ++ray)
+      {
+        const glm::dvec3 place = patch.GetFlatPoint({ random(0.0, 0.5), random(0.0, 0.5) });
+        const glm::dvec3 beside = glm::cross(up, random.Point(glm::dvec3(-1), glm::dvec3(1)));
+        const glm::dvec3 direction = glm::normalize(2.7 * beside - glm::length(beside) * up);
+        lanes.Add(ray, place - direction, direction);
+        const FacetPlane::Meeting meeting = plane.Meet(place - direction, direction);
+        lanes.Depth[ray] = meeting.Depth;
+        lanes.X[ray] = meeting.X;
+        lanes.Y[ray] = meeting.Y;
+        lanes.Slant[ray] = std::sqrt(squared) / std::fabs(meeting.Along);
+      }
+      const PatchStart start(patch, plane, patch.GetSize(), spread);
+      (start.IsGentle ? gentle : others) += 1;
+      StartNearPatch(start, InstructionSet::Portable, lanes);
+      for (const InstructionSet set : GetInstructionSets())
+      {
+        PatchIntersectionBatch same = lanes;
+        StartNearPatch(start, set, same);
+        for (int ray = 0; ray < lanes.Count; ++ray)
+        {
+          EXPECT_EQ(same.PatchX[ray], lanes.PatchX[ray]) << NameOf(set);
+          EXPECT_EQ(same.PatchY[ray], lanes.PatchY[ray]) << NameOf(set);
+          EXPECT_EQ(same.Behind[ray], lanes.Behind[ray]) << NameOf(set);
+        }
+      }
+      StepToPatch(patch, patch.GetSize(), BestInstructionSet(), lanes);
+      for (int ray = 0; ray < lanes.Count && start.IsGentle; ++ray)
+      {
+        // Single precision rounds shares of the facet, of up to 1.
+        constexpr double rounding = 4.0 * std::numeric_limits<float>::epsilon();
+        const double slant = lanes.Slant[ray];
+        const double product = steepest * slant * spread;
+        EXPECT_LT(lanes.Move[ray], product * product * product / 3.0 + rounding * slant) << cells;
+      }
+    }
+  }
+  EXPECT_GT(gentle, 400);
+  EXPECT_GT(others, 200);
+}
+
 TEST(RayBlock, InstructionSetsSeeTheSame)
 {
   const Sheet sheet(Waves, 3);
