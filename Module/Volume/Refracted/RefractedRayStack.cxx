@@ -323,7 +323,7 @@ RefractedRayStack::TileSum RefractedRayStack::TraceTile(
 /**
  * Traces the blocks of a tile.
  * @param areStraight true if rays, on straight ways, mostly reach the bounds of the mesh: blocks
- *   are not asked then if the block before was seen.
+ *   are not asked then.
  */
 RefractedRayStack::TileSum RefractedRayStack::TraceBlocks(int tile, const Showing& ofTile,
   bool areStraight, const StackVisibility& sight, StackBlock& block)
@@ -338,8 +338,7 @@ RefractedRayStack::TileSum RefractedRayStack::TraceBlocks(int tile, const Showin
   {
     const glm::ivec2 first = this->FirstPixel(tile) + FirstOfBlock(number);
     Showing showing = ofTile;
-    // Bounds behind several interfaces cost more than they save where the block before was seen.
-    if (!hasShown || (!areStraight && this->Interfaces.size() == 1))
+    if (!areStraight || !hasShown)
     {
       const CornerRays corners = this->CornersOf(first, StackBlock::Side);
       showing.Straight &= areStraight || sight.MayShowMeshUnrefracted(corners);
