@@ -36,6 +36,8 @@ public:
    * frame.
    */
   double FullImageTime = 0.0;
+  /** The same if no ray is interpolated; an upper bound, since not all of the time is for rays. */
+  double AllRaysTime = 0.0;
 
   /** Medium behind the membrane of the frame, and medium that the caller of RenderPart() gave. */
   meniscus::RefractionMedium Medium;

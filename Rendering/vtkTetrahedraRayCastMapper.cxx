@@ -447,10 +447,25 @@ double vtkTetrahedraRayCastMapper::ChooseImageSampleDistance(vtkVolume* volume)
     return this->ImageSampleDistance;
   }
   const double allocated = volume->GetAllocatedRenderTime();
+  if (!(allocated > 0.0 && this->Internals->AllRaysTime > allocated))
+  {
+    return 1.0;
+  }
   // The time is proportional to the number of rays, the inverse square of the distance.
-  const double full = this->Internals->FullImageTime;
-  const double distance = allocated > 0.0 && full > allocated ? std::sqrt(full / allocated) : 1.0;
+  const double distance = std::sqrt(std::max(this->Internals->FullImageTime / allocated, 1.0));
   return std::min(distance, static_cast<double>(this->MaximumImageSampleDistance));
+}
+
+//------------------------------------------------------------------------------
+/**
+ * True for images that interaction makes coarse: their rays are some pixels apart, or one per pixel
+ * if not all of these can be cast in time.
+ */
+bool vtkTetrahedraRayCastMapper::IsCoarse(vtkVolume* volume, double sampleDistance)
+{
+  const bool casts = IsStill(volume) || !(this->MaximumImageSampleDistance > 1.0f) ||
+    this->Internals->AllRaysTime <= volume->GetAllocatedRenderTime();
+  return this->AutoAdjustSampleDistances && (sampleDistance > 1.0 || !casts);
 }
 
 //------------------------------------------------------------------------------
@@ -491,10 +506,11 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   {
     return error;
   }
-  const bool isCoarse = this->AutoAdjustSampleDistances != 0 && pixels > 1.0;
-  if (isCoarse && this->EarlyTerminationOpacity == meniscus::DefaultTerminationOpacity)
+  if (!selector && this->IsCoarse(volume, sampleDistance) &&
+    this->EarlyTerminationOpacity == meniscus::DefaultTerminationOpacity)
   {
     frame.EarlyTerminationOpacity = meniscus::CoarseTerminationOpacity;
+    frame.Output.Interpolating = true;
   }
   this->ChooseIntegration(volume, frame.Optics);
   return meniscus::DescribeExcess(frame.Optics);
@@ -657,7 +673,9 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
     this->TimeToDraw = std::max(vtkTimerLog::GetUniversalTime() - start, 1.0e-9);
     if (this->Internals->WasWhole())
     {
-      this->Internals->FullImageTime = this->TimeToDraw * this->GetShareOfOneRay(casts);
+      vtkInternals& internals = *this->Internals;
+      internals.FullImageTime = this->TimeToDraw * this->GetShareOfOneRay(casts);
+      internals.AllRaysTime = internals.FullImageTime / internals.GetShareOfCastRays();
     }
   }
 }

@@ -491,8 +491,10 @@ public:
    * (the window's desired update rate) and the time of the last frame: during interaction rays are
    * up to MaximumImageSampleDistance pixels apart (default 8), in still images (less than one
    * frame per second is wanted) there is one per pixel, or more with an ImageSampleDistance below
-   * 1. Default is on. If an observer of the window's AbortCheckEvent gives up a still image, the
-   * native backend keeps the tiles that it has cast; the next frames of this view cast the others.
+   * 1. The native backend interpolates rays of such coarse images between others that differ
+   * little, unless EarlyTerminationOpacity has been set. Default is on. If an observer of the
+   * window's AbortCheckEvent gives up a still image, the native backend keeps the tiles that it has
+   * cast; the next frames of this view cast the others.
    */
   vtkSetMacro(AutoAdjustSampleDistances, vtkTypeBool);
   vtkGetMacro(AutoAdjustSampleDistances, vtkTypeBool);
@@ -632,6 +634,7 @@ private:
   void UpdateTransferFunction();
   const meniscus::BlendModel& GetBlendModel();
   double ChooseImageSampleDistance(vtkVolume* volume);
+  bool IsCoarse(vtkVolume* volume, double sampleDistance);
   double GetShareOfOneRay(vtkTypeInt64 casts);
   std::string PrepareView(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);

@@ -132,6 +132,9 @@ vtkTetrahedraRayCastMapper::vtkInternals::List()
         { "NumberOfRefinedPixels",
           "pixels at edges of the last image, which got several rays (native backend)",
           [](Self& self) { return double(self.Internals->GetStatistics().RefinedPixels); } },
+        { "NumberOfInterpolatedRays",
+          "rays of the last frame, part of NumberOfRays, that were interpolated (native backend)",
+          [](Self& self) { return double(self.Internals->GetStatistics().Interpolated); } },
         { "UsedImageSampleDistance", "smallest distance of rays in the last frame, in pixels",
           [](Self& self) { return double(self.UsedImageSampleDistance); } },
       });

@@ -45,6 +45,8 @@ struct RayCastStatistics
   /** Pixels that got several rays, and the cells that these crossed, which are part of Steps. */
   std::int64_t RefinedPixels = 0;
   std::int64_t RefiningSteps = 0;
+  /** Rays, which are part of Rays, that were not cast, but interpolated between others. */
+  std::int64_t Interpolated = 0;
 };
 
 /** Memory and work of a backend, which the mapper adds up over its backends. */

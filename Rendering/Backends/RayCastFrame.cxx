@@ -15,7 +15,8 @@ bool HaveSameImage(const RayCastFrame& a, const RayCastFrame& b)
     const RayCastRefraction& refracting = frame.Refracting;
     return std::tie(frame.EarlyTerminationOpacity, frame.MaximumTableSize, frame.SettingsTime,
       frame.Output.ImageSize[0], frame.Output.ImageSize[1], frame.Output.RaysAcross,
-      refracting.Part, refracting.Wanted, refracting.Met, refracting.Center, refracting.EyeDepth);
+      frame.Output.Interpolating, refracting.Part, refracting.Wanted, refracting.Met,
+      refracting.Center, refracting.EyeDepth);
   };
   // Rays through interfaces begin at the near plane, wherever it is.
   const bool areStraight = !a.Refracting.Wanted && a.Refracting.Part == MembranePart::Whole;

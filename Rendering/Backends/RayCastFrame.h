@@ -26,6 +26,11 @@ struct RayCastOutput
   RayCastImageBox Meeting{ 0, 0, 0, 0 };
   /** Rays of a pixel along each axis, where its neighbours differ. */
   int RaysAcross = 1;
+  /**
+   * Whether a backend may interpolate rays between others that differ little: in images that
+   * interaction makes coarse.
+   */
+  bool Interpolating = false;
   /** Still picture, which the application may give up. */
   bool MayStop = false;
   /** Hardware selection: a value where the image is visible, in place of its colour. */

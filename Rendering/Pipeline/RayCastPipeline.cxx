@@ -216,6 +216,19 @@ std::int64_t RayCastPipeline::CountOverlaps() const
 }
 
 //------------------------------------------------------------------------------
+double RayCastPipeline::GetShareOfCastRays() const
+{
+  if (!this->Active || !this->Active->CountsOverlaps())
+  {
+    return 1.0;
+  }
+  const RayCastStatistics sums = this->Active->GetStatistics();
+  const auto rays = static_cast<double>(std::max<std::int64_t>(sums.Rays, 1));
+  // At least a ray of 4 x 4 is cast, but is no ray that entered the mesh if it is hidden.
+  return std::max(1.0 - static_cast<double>(sums.Interpolated) / rays, 1.0 / 16.0);
+}
+
+//------------------------------------------------------------------------------
 void RayCastPipeline::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Shown = ImageSource();

@@ -63,6 +63,8 @@ public:
   /** Rays of the last frame through overlapping cells; 0 from a backend that does not count them.
    */
   std::int64_t CountOverlaps() const;
+  /** Share of the last frame's rays that were not interpolated, at least 1/16. */
+  double GetShareOfCastRays() const;
   /** Notes a frame without rays. */
   void ClearStatistics() { this->Active = nullptr; }
 

@@ -23,6 +23,8 @@ struct TileLeg
   int RaysAcross = 1;
   /** Rays of the tile that are cast, as for BoundaryRaster; null for all of them. */
   const std::vector<std::int16_t>* Selected = nullptr;
+  /** True if the workspace has the entries of all rays of the tile; for sight legs. */
+  bool IsListed = false;
 };
 
 /** Lines of one leg in one frame that enter the mesh, ready to be cast. */

@@ -143,7 +143,7 @@ void SightLegEntries::TakeRays(
   for (std::size_t i = 0; i < count; ++i)
   {
     const std::int32_t pixel = leg.Selected ? (*leg.Selected)[i] : Curve[i];
-    const std::size_t listed = leg.Selected ? i : static_cast<std::size_t>(pixel);
+    const std::size_t listed = leg.Selected && !leg.IsListed ? i : static_cast<std::size_t>(pixel);
     if (entries.GetBegin(listed) == entries.GetBegin(listed + 1))
     {
       continue;
@@ -183,11 +183,11 @@ void SightLegEntries::Collect(
     this->Legs.GetNumberOfLegs() > 1 ? this->Legs.GetTile(1, leg.Tile) : nullptr;
   if (this->MayShow(leg.Tile))
   {
-    if (leg.Selected)
+    if (leg.Selected && !leg.IsListed)
     {
       this->Raster.CollectEntries(leg.Tile, *leg.Selected, workspace.Raster);
     }
-    else
+    else if (!leg.IsListed)
     {
       this->Raster.CollectEntries(leg.Tile, workspace.Raster);
     }

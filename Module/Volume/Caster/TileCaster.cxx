@@ -358,12 +358,52 @@ RayStatistics TileCaster::Cast(
   {
     workspace.Joined.Clear(work.Job.Blending);
   }
+  if (this->Interpolates(tile))
+  {
+    this->CastSome(this->FirstLeg(tile, opaqueDepth), image, work);
+    return work.Sums;
+  }
   this->CastLegs(this->FirstLeg(tile, opaqueDepth), work);
   if (work.Job.KeepsValues)
   {
     workspace.Joined.Finish(work.Job, box, this->Legs.GetWidth(), image, work.Sums);
   }
   return work.Sums;
+}
+
+//------------------------------------------------------------------------------
+/**
+ * True if rays of a tile may be interpolated. Isosurfaces end at outlines, most of which would be
+ * found, but not small pieces; and most of their rays would have to be cast.
+ */
+bool TileCaster::Interpolates(int tile) const
+{
+  return this->Input.Interpolating && this->Legs.GetNumberOfLegs(tile) == 1 &&
+    GetBlendModel(this->Input.Blending).Subject != BlendSubject::Surfaces;
+}
+
+//------------------------------------------------------------------------------
+/** Casts rays of a tile and interpolates the others. @param leg the only leg of its rays. */
+void TileCaster::CastSome(TileLeg leg, float* image, TileWork& work) const
+{
+  if (!this->Sight.MayShow(leg.Tile))
+  {
+    return;
+  }
+  BoundaryRaster::Workspace& found = work.Buffers.Sight.Raster;
+  InterpolatedRays& rays = work.Buffers.Interpolated;
+  this->GetRaster().CollectEntries(leg.Tile, found);
+  rays.Begin({ leg.Box, &found.Lists, &this->Legs.GetSight(), leg.OpaqueDepth, image,
+    this->Legs.GetWidth() });
+  leg.Selected = &rays.GetSelected();
+  leg.IsListed = true;
+  do
+  {
+    this->CastLegs(leg, work);
+  } while (rays.SelectMore());
+  const std::int64_t interpolated = rays.GetNumberOfInterpolated();
+  work.Sums.Interpolated += interpolated;
+  work.Sums.Rays += interpolated;
 }
 
 //------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 
 #include "Common/RangeLoop.h"
 #include "Simd/InstructionSets.h"
+#include "Volume/Caster/InterpolatedRays.h"
 #include "Volume/Caster/JoinedRays.h"
 #include "Volume/Caster/LegBatch.h"
 #include "Volume/Caster/LegFrame.h"
@@ -99,6 +100,11 @@ public:
      * the columns and rows, divisible by it. 1 unless Refine() is called and no ray is refracted.
      */
     int RaysAcross = 1;
+    /**
+     * Whether Cast() may interpolate rays that differ little (InterpolatedRays), which must be
+     * zero in its image. Rays of isosurfaces and rays that interfaces refract are cast.
+     */
+    bool Interpolating = false;
     /** Rays of the pixels' centres, and the tiles for which Refine() is called. */
     BoundaryRaster::Refinement Refining{};
     /** Planes that clip rays: only the part of a ray on the kept side of all of them is drawn. */
@@ -146,6 +152,7 @@ public:
     std::vector<float> Paths;
     JoinedRays Joined;
     PixelRays Refining;
+    InterpolatedRays Interpolated;
     /** Values of a batch that is measured, and the measurements of the tile. */
     std::vector<float> Values;
     std::vector<RayEventState> EventStates;
@@ -187,6 +194,8 @@ private:
   void SetPictureOptics(PacketJob& job) const;
   TileLeg FirstLeg(int tile, const float* opaqueDepth) const;
   bool JoinsLegs(int tile) const;
+  bool Interpolates(int tile) const;
+  void CastSome(TileLeg leg, float* image, TileWork& work) const;
   void CastLegs(TileLeg leg, TileWork& work) const;
   template <class Entries>
   void CastLeg(const Entries& entries, typename Entries::Workspace& found, const TileLeg& leg,

@@ -13,12 +13,14 @@ struct RayStatistics
 {
   /** Number of cells crossed. */
   std::int64_t Steps = 0;
-  /** Number of rays that entered the mesh. */
+  /** Number of rays that entered the mesh, interpolated ones included. */
   std::int64_t Rays = 0;
   /** Number of rays whose walk did not end on the boundary. */
   std::int64_t Lost = 0;
   /** Number of rays, of each leg, that found parts of the mesh to overlap. */
   std::int64_t Overlaps = 0;
+  /** Number of rays that entered the mesh, but were interpolated between others. */
+  std::int64_t Interpolated = 0;
 };
 
 /** Sums over the rays of all parts of a frame. */
@@ -31,6 +33,7 @@ inline RayStatistics SumOf(const std::vector<RayStatistics>& parts)
     sum.Rays += part.Rays;
     sum.Lost += part.Lost;
     sum.Overlaps += part.Overlaps;
+    sum.Interpolated += part.Interpolated;
   }
   return sum;
 }

@@ -89,8 +89,9 @@ std::string RayCastNative::Cast(const RayCastRequest& request, RayCastTarget& ta
   const int width = target.GetWidth();
   const int height = target.GetHeight();
   const ImageDepths depths{ target.ReadDepths(), target.GetDepthsOfImage() };
-  const TileCaster caster(
-    this->Scene.Make(request.Tables, request.Frame, width, height), ThreadedLoop);
+  TileCaster::Scene scene = this->Scene.Make(request.Tables, request.Frame, width, height);
+  scene.Interpolating = request.Frame.Output.Interpolating;
+  const TileCaster caster(scene, ThreadedLoop);
   if (!this->CastTiles(caster, depths, target))
   {
     this->Refined.Forget();
@@ -107,10 +108,10 @@ std::string RayCastNative::Cast(const RayCastRequest& request, RayCastTarget& ta
     SumOf(this->OfTile).Rays, across, depths, target,
     [&]()
     {
-      TileCaster::Scene scene =
+      TileCaster::Scene refined =
         this->Scene.Make(request.Tables, request.Frame, width, height, across);
-      scene.Refining.Coarse = &caster.GetRaster();
-      return scene;
+      refined.Refining.Coarse = &caster.GetRaster();
+      return refined;
     });
   return finished ? target.WriteImage(this->Refined.GetPixels(), this->Refined.GetFilled())
                   : std::string();
@@ -185,6 +186,7 @@ RayCastStatistics RayCastNative::GetStatistics()
   total.Rays = sum.Rays;
   total.Lost = sum.Lost;
   total.Overlaps = sum.Overlaps;
+  total.Interpolated = sum.Interpolated;
   this->Refined.AddTo(total);
   return total;
 }

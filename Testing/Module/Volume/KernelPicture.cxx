@@ -15,6 +15,14 @@ namespace meniscus::test
 //------------------------------------------------------------------------------
 Picture CastPicture(const PictureScene& scene, int size, InstructionSet set, float windowDepth)
 {
+  const std::vector<float> depths(static_cast<std::size_t>(size) * size, windowDepth);
+  return CastPicture(scene, size, set, depths);
+}
+
+//------------------------------------------------------------------------------
+Picture CastPicture(
+  const PictureScene& scene, int size, InstructionSet set, const std::vector<float>& windowDepths)
+{
   PacketTables tables;
   const FixedPointRays rays(
     scene.Frame, size, size, FindPivot(scene.Frame, size, size, scene.Mesh));
@@ -45,15 +53,16 @@ Picture CastPicture(const PictureScene& scene, int size, InstructionSet set, flo
 
   const std::size_t pixels = static_cast<std::size_t>(size) * size;
   Picture picture{ size, std::vector<float>(4 * pixels, 0.0f), RayStatistics() };
-  const std::vector<float> depths(pixels, windowDepth);
   const TileCaster caster(cast);
   TileCaster::Workspace workspace;
   for (int tile = 0; tile < caster.GetNumberOfTiles(); ++tile)
   {
-    const RayStatistics sums = caster.Cast(tile, depths.data(), picture.Rgba.data(), workspace);
+    const RayStatistics sums =
+      caster.Cast(tile, windowDepths.data(), picture.Rgba.data(), workspace);
     picture.Statistics.Steps += sums.Steps;
     picture.Statistics.Rays += sums.Rays;
     picture.Statistics.Lost += sums.Lost;
+    picture.Statistics.Interpolated += sums.Interpolated;
   }
   return picture;
 }

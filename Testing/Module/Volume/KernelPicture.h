@@ -40,6 +40,10 @@ struct Picture
 Picture CastPicture(
   const PictureScene& scene, int size, InstructionSet set, float windowDepth = 1.0f);
 
+/** The same with a depth per pixel, rows from below. */
+Picture CastPicture(
+  const PictureScene& scene, int size, InstructionSet set, const std::vector<float>& windowDepths);
+
 /** Name of a test for an instruction set, of letters and digits. */
 std::string TestNameOf(const ::testing::TestParamInfo<InstructionSet>& tested);
 

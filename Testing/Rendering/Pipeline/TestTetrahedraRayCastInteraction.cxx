@@ -265,6 +265,61 @@ TEST(TetrahedraRayCastDetail, RaysOfAMovingImageEndEarlier)
   }
 }
 
+// Rays of coarse images are interpolated by the native backend where that errs by at most a level,
+// in the quadratic mean of three colours, one of which may differ more.
+TEST(TetrahedraRayCastDetail, RaysOfAMovingImageAreInterpolated)
+{
+  const Grid grid = MakeBlock(6, WavyField(3.0));
+  RayCastScene scene(grid, Smooth(), 4 * Size, 4 * Size);
+  vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
+  mapper->SetMaximumImageSampleDistance(2.0f);
+  const auto renderAt = [&scene, mapper](bool adjusts, double opacity)
+  {
+    mapper->SetAutoAdjustSampleDistances(adjusts);
+    mapper->SetImageSampleDistance(adjusts ? 1.0f : 2.0f);
+    mapper->SetEarlyTerminationOpacity(opacity);
+    return scene.RenderFloat().Rgba;
+  };
+  const auto countInterpolated = [mapper]
+  { return static_cast<vtkTypeInt64>(mapper->GetStatistic("NumberOfInterpolatedRays")); };
+  const double defaultOpacity = mapper->GetEarlyTerminationOpacity();
+  const double coarseOpacity = 1.0 - 1.0 / 512.0;
+  for (const int backend :
+    { int(vtkTetrahedraRayCastMapper::OPENGL), int(vtkTetrahedraRayCastMapper::NATIVE) })
+  {
+    mapper->SetBackend(backend);
+    scene.GetWindow()->SetDesiredUpdateRate(1e-4);
+    renderAt(true, defaultOpacity);
+    EXPECT_EQ(countInterpolated(), 0) << "still";
+    scene.GetWindow()->SetDesiredUpdateRate(1e6); // more than can be reached
+    const auto truth = renderAt(false, coarseOpacity);
+    const vtkTypeInt64 rays = mapper->GetNumberOfRays();
+    const vtkTypeInt64 steps = mapper->GetNumberOfTraversalSteps();
+    EXPECT_EQ(countInterpolated(), 0) << "fixed distance";
+    EXPECT_EQ(renderAt(true, coarseOpacity), truth);
+    EXPECT_EQ(countInterpolated(), 0) << "chosen opacity";
+
+    const auto moving = renderAt(true, defaultOpacity);
+    EXPECT_EQ(mapper->GetStatistic("UsedImageSampleDistance"), 2.0);
+    EXPECT_EQ(mapper->GetNumberOfRays(), rays);
+    if (backend == vtkTetrahedraRayCastMapper::OPENGL)
+    {
+      EXPECT_EQ(moving, truth);
+      EXPECT_EQ(countInterpolated(), 0);
+      continue;
+    }
+    EXPECT_GT(countInterpolated(), rays / 10);
+    EXPECT_LT(mapper->GetNumberOfTraversalSteps(), steps * 19 / 20);
+    float largest = 0.0f;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+    {
+      largest = std::max(largest, std::abs(moving[i] - truth[i]));
+    }
+    EXPECT_LE(largest, std::sqrt(3.0f) / 255.0f);
+    EXPECT_GT(largest, 0.0f);
+  }
+}
+
 TEST(TetrahedraRayCastDetail, LevelsOfDetailProp)
 {
   RayCastScene scene(MakeBlock(6, WavyField(3.0)), Smooth(), Size, Size);
