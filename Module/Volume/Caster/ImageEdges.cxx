@@ -48,14 +48,8 @@ inline float LargestDifference(
 /** Squared height of the second differences of a pixel between two opposite neighbours. */
 inline float SquaredHeight(const float* before, const float* middle, const float* after)
 {
-  const float opacity = SecondDifference(before + 3, middle + 3, after + 3);
-  ColorChange change;
-  for (int i = 0; i < 3; ++i)
-  {
-    change.OverBlack[i] = SecondDifference(before + i, middle + i, after + i);
-    change.OverWhite[i] = change.OverBlack[i] - opacity;
-  }
-  return change.GetSquare();
+  return ColorChange::Of([=](int i) { return SecondDifference(before + i, middle + i, after + i); })
+    .GetSquare();
 }
 
 /** Edge of the pixel whose numbers begin at i. */

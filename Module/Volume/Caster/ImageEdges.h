@@ -24,6 +24,20 @@ struct ColorChange
   float OverBlack[3];
   float OverWhite[3];
 
+  /** A change of premultiplied colours. @param component returns it for 0 to 3, RGBA. */
+  template <class Component>
+  static ColorChange Of(const Component& component)
+  {
+    const float opacity = component(3);
+    ColorChange change;
+    for (int i = 0; i < 3; ++i)
+    {
+      change.OverBlack[i] = component(i);
+      change.OverWhite[i] = change.OverBlack[i] - opacity;
+    }
+    return change;
+  }
+
   /** The square of the change's height: the quadratic mean over the background that shows it best.
    */
   float GetSquare() const

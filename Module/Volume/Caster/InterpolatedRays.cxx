@@ -29,15 +29,8 @@ float HeightOf(const float* first, const float* middle, const float* last, float
   {
     return std::numeric_limits<float>::infinity();
   }
-  const auto second = [&](int i) { return (last[i] - middle[i]) * ratio - (middle[i] - first[i]); };
-  const float opacity = second(3);
-  ColorChange change;
-  for (int i = 0; i < 3; ++i)
-  {
-    change.OverBlack[i] = second(i);
-    change.OverWhite[i] = change.OverBlack[i] - opacity;
-  }
-  return std::sqrt(change.GetSquare());
+  const auto second = [=](int i) { return (last[i] - middle[i]) * ratio - (middle[i] - first[i]); };
+  return std::sqrt(ColorChange::Of(second).GetSquare());
 }
 
 }
