@@ -40,7 +40,9 @@ constexpr double OtherTime = 1e-3;
 
 // Settings that are tried, the coarsest first.
 constexpr int CoarseCells[] = { 8, 12, 16, 24, 32, 48, 64, PictureCells };
-constexpr double CoarseTolerances[] = { 0.08, 0.06, 0.04, 0.03, 0.02, 0.015, 0.01, 0.005 };
+const std::vector<double> CoarseTolerances{ 0.08, 0.06, 0.04, 0.03, 0.02, 0.015, 0.01, 0.005 };
+// Those around the default, for the error of the tracer.
+const std::vector<double> FineTolerances{ 0.009, 0.008, 0.007, 0.0065, 0.006, 0.0055, 0.005 };
 constexpr int TriedFrames = 3;
 
 std::string NameFacets(int cells)
@@ -224,16 +226,17 @@ PoolFigures DrawCoarsely(const test::PoolPicture& truth, int cells, double toler
 }
 
 // The cheapest of several tolerances, each with the coarsest membrane that reaches the error.
-PoolFigures FindCoarsestPass(const test::PoolPicture& truth)
+PoolFigures FindCoarsestPass(
+  const test::PoolPicture& truth, double accepted, const std::vector<double>& tolerances)
 {
   double least = std::numeric_limits<double>::max();
   int chosen = PictureCells;
-  double chosenTolerance = CoarseTolerances[0];
-  for (const double tolerance : CoarseTolerances)
+  double chosenTolerance = tolerances.back();
+  for (const double tolerance : tolerances)
   {
     for (const int cells : CoarseCells)
     {
-      if (DrawCoarsely(truth, cells, tolerance, 2).Percent > PoolPictures::AcceptedPercent)
+      if (DrawCoarsely(truth, cells, tolerance, 2).Percent > accepted)
       {
         continue;
       }
@@ -298,10 +301,11 @@ PoolPictures ComparePool()
   PoolPictures result;
   result.Pass = DrawWithPass(scene, truth, PictureFrames);
   result.Pass.SetUp = NameFacets(PictureCells) + ", default tolerance";
-  result.CoarsePass = FindCoarsestPass(truth);
+  result.CoarsePass = FindCoarsestPass(truth, PoolPictures::AcceptedPercent, CoarseTolerances);
 #ifdef MENISCUS_HAS_EMBREE
   result.HasTraced = true;
   result.Traced = TraceWithEmbree(scene, truth, PictureCells, PictureFrames);
+  result.EqualPass = FindCoarsestPass(truth, result.Traced.Percent, FineTolerances);
   result.CoarseTraced = FindCoarsestTraced(scene, truth);
 #endif
   return result;

@@ -39,6 +39,7 @@ struct PoolPictures
 
   PoolFigures Pass;
   PoolFigures Traced;
+  PoolFigures EqualPass; ///< cheapest settings with at most the error of `Traced`
   PoolFigures CoarsePass;
   PoolFigures CoarseTraced;
   bool HasTraced = false; ///< built with Embree

@@ -233,7 +233,9 @@ private:
         MakeNumber(figures.Ms, 3) + " ms (" + MakeNumber(figures.CpuMs, 3) + " ms CPU)";
     };
     return "new waves. Default tolerance: " + describe("pass", pictures.Pass) +
-      (pictures.HasTraced ? "; " + describe("Embree", pictures.Traced) : "") +
+      (pictures.HasTraced ? "; " + describe("Embree", pictures.Traced) +
+            ". At most the error of Embree: " + describe("pass", pictures.EqualPass)
+                          : "") +
       ". Coarsest settings below " + MakeNumber(PoolPictures::AcceptedPercent) +
       " %: " + describe("pass", pictures.CoarsePass) +
       (pictures.HasTraced ? "; " + describe("Embree", pictures.CoarseTraced)

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -53,6 +54,7 @@ std::size_t Hash(const glm::dvec3& point)
 EdgeSubdivision::EdgeSubdivision(const CurvedMembraneSolver& geometry, double tolerance)
   : Geometry(geometry)
   , Tolerance(tolerance)
+  , Eye(geometry.GetMedia().Eye + geometry.GetMembrane().GetOrigin())
   , Cache(std::move(GetSpareCache()))
   , Edges(SmallestEdgeTable, Edge{ 0, NotSplit, 0 })
 {
@@ -117,9 +119,11 @@ void EdgeSubdivision::PrepareMiddles()
 {
   std::array<CurvedMembraneSolver::PointBetween, CurvedMembraneSolver::MostBetween> open{};
   std::size_t size = 0;
+  ++this->Batch;
   const auto solve = [this, &open, &size]()
   {
     this->Geometry.SolveAllBetween(open.data(), size);
+    ++this->Batch;
     for (std::size_t i = 0; i < size; ++i)
     {
       this->SearchIfLost(open[i].Point, *open[i].Image);
@@ -134,13 +138,13 @@ void EdgeSubdivision::PrepareMiddles()
     {
       continue;
     }
-    const bool isTaken = std::any_of(open.begin(), open.begin() + size,
-      [&middle](const auto& other) { return other.Image == &middle.Vertex; });
+    const bool isTaken = middle.Owner == this->Number && middle.Batch == this->Batch;
     if (isTaken || size == open.size())
     {
       solve();
     }
     middle.Owner = this->Number;
+    middle.Batch = this->Batch;
     middle.Point = point;
     open[size++] = { point, part.Image[0], part.Image[1], &middle.Vertex };
   }
@@ -215,8 +219,8 @@ std::vector<bool> EdgeSubdivision::AreStraight(const std::vector<std::array<Imag
 // Angle between a drawn place and an image, seen from the eye, in tolerances.
 glm::dvec3 EdgeSubdivision::GetError(const glm::dvec3& drawn, const VirtualVertex& image) const
 {
-  const glm::dvec3 eye = this->Geometry.GetMedia().Eye + this->Geometry.GetMembrane().GetOrigin();
-  return (glm::normalize(image.Position - eye) - glm::normalize(drawn - eye)) / this->Tolerance;
+  return (glm::normalize(image.Position - this->Eye) - glm::normalize(drawn - this->Eye)) /
+    this->Tolerance;
 }
 
 //------------------------------------------------------------------------------
@@ -243,13 +247,16 @@ bool EdgeSubdivision::AreNeighbours(const VirtualVertex& a, const VirtualVertex&
 }
 
 //------------------------------------------------------------------------------
-// True if the image of a line may be S-shaped between two points.
+// True if the image of a line may be S-shaped between two points. Their directions are no farther
+// apart than their distance over that of the nearer one from the eye, which settles most cases.
 bool EdgeSubdivision::MayTurn(const VirtualVertex& a, const VirtualVertex& b) const
 {
-  const glm::dvec3 eye = this->Geometry.GetMedia().Eye + this->Geometry.GetMembrane().GetOrigin();
-  return MayTurnTwice(
-    glm::length(glm::normalize(a.Position - eye) - glm::normalize(b.Position - eye)),
-    this->Tolerance);
+  const glm::dvec3 first = a.Position - this->Eye;
+  const glm::dvec3 last = b.Position - this->Eye;
+  const glm::dvec3 way = last - first;
+  const double nearest = std::min(glm::dot(first, first), glm::dot(last, last));
+  return MayTurnTwice(std::sqrt(glm::dot(way, way) / nearest), this->Tolerance) &&
+    MayTurnTwice(glm::length(glm::normalize(first) - glm::normalize(last)), this->Tolerance);
 }
 
 //------------------------------------------------------------------------------
@@ -388,26 +395,24 @@ EdgeSubdivision::Edge& EdgeSubdivision::FindEdge(std::uint64_t key)
 }
 
 //------------------------------------------------------------------------------
-void EdgeSubdivision::AddEdge(const Edge& edge)
-{
-  this->FindEdge(edge.Key) = edge;
-  if (2 * ++this->EdgeCount > this->Edges.size())
-  {
-    this->GrowEdges();
-  }
-}
-
-//------------------------------------------------------------------------------
-// Adds an edge with an error that is expected, if it is new.
-void EdgeSubdivision::AddUntested(
+// The edge's entry, which is added with an error that is expected if it is new. It may move when
+// the next one is added.
+EdgeSubdivision::Edge& EdgeSubdivision::AddUntested(
   std::int32_t a, std::int32_t b, const glm::dvec3& error, bool isStraight)
 {
   const std::uint64_t key = MakeKey(a, b);
-  if (this->FindEdge(key).Round != this->Round)
+  Edge& edge = this->FindEdge(key);
+  if (edge.Round == this->Round)
   {
-    this->AddEdge(
-      { key, isStraight ? NotSplit : NotTested, this->Round, isStraight, isStraight, error });
+    return edge;
   }
+  edge = { key, isStraight ? NotSplit : NotTested, this->Round, isStraight, isStraight, error };
+  if (2 * ++this->EdgeCount <= this->Edges.size())
+  {
+    return edge;
+  }
+  this->GrowEdges();
+  return this->FindEdge(key);
 }
 
 //------------------------------------------------------------------------------
@@ -425,19 +430,19 @@ void EdgeSubdivision::GrowEdges()
 }
 
 //------------------------------------------------------------------------------
-// The node in the middle of an edge, or NotSplit if the edge is straight.
-std::int32_t EdgeSubdivision::GetMiddle(std::int32_t a, std::int32_t b)
+// An edge; if it has not been tested, with no middle.
+EdgeSubdivision::Edge EdgeSubdivision::GetEdge(std::int32_t a, std::int32_t b)
 {
-  const Edge& edge = this->FindEdge(MakeKey(a, b));
-  return edge.Round == this->Round && edge.Middle >= 0 ? edge.Middle : NotSplit;
+  Edge edge = this->FindEdge(MakeKey(a, b));
+  edge.Middle = edge.Round == this->Round && edge.Middle >= 0 ? edge.Middle : NotSplit;
+  return edge;
 }
 
 //------------------------------------------------------------------------------
 // Adds an edge to those that are tested next, unless it is known or among them.
 void EdgeSubdivision::TestEdge(std::int32_t a, std::int32_t b)
 {
-  this->AddUntested(a, b, glm::dvec3(0.0), false);
-  Edge& edge = this->FindEdge(MakeKey(a, b));
+  Edge& edge = this->AddUntested(a, b, glm::dvec3(0.0), false);
   if (edge.Middle == NotTested)
   {
     edge.Middle = NotSplit;
@@ -545,70 +550,66 @@ void EdgeSubdivision::Divide(const Cell& cell)
 //------------------------------------------------------------------------------
 // Adds the edges between middles of sides, which are half as long as the side that they are
 // parallel to.
-void EdgeSubdivision::AddParallels(const NodeIds& nodes, const NodeIds& middle)
+void EdgeSubdivision::AddParallels(const EdgesOfPart& edges)
 {
   for (std::size_t k = 0; k < 3; ++k)
   {
-    const std::int32_t a = middle[(k + 1) % 3];
-    const std::int32_t b = middle[(k + 2) % 3];
-    if (a == NotSplit || b == NotSplit)
+    const std::int32_t a = edges[(k + 1) % 3].Middle;
+    const std::int32_t b = edges[(k + 2) % 3].Middle;
+    if (a != NotSplit && b != NotSplit)
     {
-      continue;
+      this->AddUntested(a, b, OfHalf * edges[k].Error, edges[k].IsSmooth && this->AreSampled(a, b));
     }
-    const Edge& side = this->FindEdge(MakeKey(nodes[(k + 1) % 3], nodes[(k + 2) % 3]));
-    this->AddUntested(a, b, OfHalf * side.Error, side.IsSmooth && this->AreSampled(a, b));
   }
 }
 
 //------------------------------------------------------------------------------
-// The error that is expected of the edge from the first node to the middle of the other two. Where
-// second derivatives are the same everywhere, the error of an edge is a quadratic form of the edge;
-// this one is half of the difference of two sides.
-glm::dvec3 EdgeSubdivision::ExpectMedian(const NodeIds& nodes)
+// The error that is expected of the edge from the node opposite side `k` to the middle of that
+// side. Where second derivatives are the same everywhere, the error of an edge is a quadratic form
+// of the edge; this one is half of the difference of two sides.
+glm::dvec3 EdgeSubdivision::ExpectMedian(const EdgesOfPart& edges, std::size_t k)
 {
-  const auto error = [this, &nodes](std::size_t i, std::size_t j)
-  { return this->FindEdge(MakeKey(nodes[i], nodes[j])).Error; };
-  return OfHalf * (2.0 * (error(0, 1) + error(2, 0)) - error(1, 2));
+  return OfHalf * (2.0 * (edges[(k + 2) % 3].Error + edges[(k + 1) % 3].Error) - edges[k].Error);
 }
 
 //------------------------------------------------------------------------------
-void EdgeSubdivision::AddMedian(const NodeIds& nodes, std::int32_t middle)
+void EdgeSubdivision::AddMedian(const NodeIds& nodes, const EdgesOfPart& edges, std::size_t k)
 {
-  const glm::dvec3 error = this->ExpectMedian(nodes);
-  this->AddUntested(nodes[0], middle, error,
-    this->FindEdge(MakeKey(nodes[1], nodes[2])).Follows &&
-      glm::length(error) <= OfHalf * FollowedParts && this->AreSampled(nodes[0], middle));
+  const glm::dvec3 error = ExpectMedian(edges, k);
+  const std::int32_t middle = edges[k].Middle;
+  this->AddUntested(nodes[k], middle, error,
+    edges[k].Follows && glm::length(error) <= OfHalf * FollowedParts &&
+      this->AreSampled(nodes[k], middle));
 }
 
 //------------------------------------------------------------------------------
 // Emits a part, or adds its parts to the next level.
 void EdgeSubdivision::DividePart(const Cell& cell, const NodeIds& nodes)
 {
-  NodeIds middle; // of the edge opposite each node
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    middle[k] = this->GetMiddle(nodes[(k + 1) % 3], nodes[(k + 2) % 3]);
-  }
-  this->AddParallels(nodes, middle);
-  const auto splits =
-    std::count_if(middle.begin(), middle.end(), [](std::int32_t m) { return m != NotSplit; });
+  const EdgesOfPart edges = { this->GetEdge(nodes[1], nodes[2]), this->GetEdge(nodes[2], nodes[0]),
+    this->GetEdge(nodes[0], nodes[1]) };
+  const auto splits = std::count_if(
+    edges.begin(), edges.end(), [](const Edge& edge) { return edge.Middle != NotSplit; });
   if (splits == 0)
   {
     this->Emit(cell, nodes);
     return;
   }
-  // Rotates the corners so that edge 0 is split and, if two edges are split, edge 1 as well.
+  this->AddParallels(edges);
+  // Corners from the one where side k is split and, if two sides are split, the next one as well.
   std::size_t k = 0;
-  while (middle[k] == NotSplit || (splits == 2 && middle[(k + 1) % 3] == NotSplit))
+  while (edges[k].Middle == NotSplit || (splits == 2 && edges[(k + 1) % 3].Middle == NotSplit))
   {
     ++k;
   }
-  const NodeIds n = { nodes[k], nodes[(k + 1) % 3], nodes[(k + 2) % 3] };
-  const NodeIds m = { middle[k], middle[(k + 1) % 3], middle[(k + 2) % 3] };
+  const std::size_t next = (k + 1) % 3;
+  const std::size_t last = (k + 2) % 3;
+  const NodeIds n = { nodes[k], nodes[next], nodes[last] };
+  const NodeIds m = { edges[k].Middle, edges[next].Middle, edges[last].Middle };
   std::vector<NodeIds>& parts = this->NextLevel;
   if (splits == 1)
   {
-    this->AddMedian(n, m[0]);
+    this->AddMedian(nodes, edges, k);
     parts.insert(parts.end(), { { n[0], n[1], m[0] }, { n[0], m[0], n[2] } });
     return;
   }
@@ -619,10 +620,9 @@ void EdgeSubdivision::DividePart(const Cell& cell, const NodeIds& nodes)
     return;
   }
   // The diagonal of the rest that is expected to be bent less.
-  const NodeIds turned = { n[1], n[2], n[0] };
   const bool isFirst =
-    glm::length(this->ExpectMedian(n)) <= glm::length(this->ExpectMedian(turned));
-  this->AddMedian(isFirst ? n : turned, isFirst ? m[0] : m[1]);
+    glm::length(ExpectMedian(edges, k)) <= glm::length(ExpectMedian(edges, next));
+  this->AddMedian(nodes, edges, isFirst ? k : next);
   parts.push_back({ n[0], n[1], isFirst ? m[0] : m[1] });
   parts.push_back({ isFirst ? n[0] : n[1], m[0], m[1] });
 }
@@ -636,7 +636,7 @@ void EdgeSubdivision::DivideLine(const Cell& cell, std::int32_t a, std::int32_t 
     this->TestEdge(a, b);
   }
   this->SettleEdges();
-  const std::int32_t middle = this->GetMiddle(a, b);
+  const std::int32_t middle = this->GetEdge(a, b).Middle;
   if (this->Failed)
   {
     return;

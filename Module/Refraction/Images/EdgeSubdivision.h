@@ -126,6 +126,7 @@ private:
   struct Middle
   {
     std::uint64_t Owner = 0; ///< number of the object that has stored the middle
+    std::uint64_t Batch = 0; ///< points that are solved together: the last ones it belonged to
     glm::dvec3 Point;
     VirtualVertex Vertex;
   };
@@ -148,8 +149,9 @@ private:
     bool Follows = false;    ///< the bend is as that of the edge twice as long
     glm::dvec3 Error{ 0.0 }; ///< of the drawn middle; expected if the edge is not tested
   };
-  /** Nodes of a part of a triangle. */
+  /** Nodes of a part of a triangle, and the edges opposite to them. */
   using NodeIds = std::array<std::int32_t, 3>;
+  using EdgesOfPart = std::array<Edge, 3>;
   struct Cell
   {
     std::array<std::int64_t, 3> Ids;
@@ -183,18 +185,17 @@ private:
   void Start(const std::array<ImagedPoint, 3>& corners, std::size_t count);
   static std::uint64_t MakeKey(std::int32_t a, std::int32_t b);
   Edge& FindEdge(std::uint64_t key);
-  void AddEdge(const Edge& edge);
-  void AddUntested(std::int32_t a, std::int32_t b, const glm::dvec3& error, bool isStraight);
+  Edge& AddUntested(std::int32_t a, std::int32_t b, const glm::dvec3& error, bool isStraight);
   void GrowEdges();
-  std::int32_t GetMiddle(std::int32_t a, std::int32_t b);
+  Edge GetEdge(std::int32_t a, std::int32_t b);
   void TestEdge(std::int32_t a, std::int32_t b);
   void SettleEdges();
   void SettleEdge(std::uint64_t key, const Side& side);
   void SettleLevel(std::size_t begin, std::size_t end);
   void Divide(const Cell& cell);
-  void AddParallels(const NodeIds& nodes, const NodeIds& middle);
-  glm::dvec3 ExpectMedian(const NodeIds& nodes);
-  void AddMedian(const NodeIds& nodes, std::int32_t middle);
+  void AddParallels(const EdgesOfPart& edges);
+  static glm::dvec3 ExpectMedian(const EdgesOfPart& edges, std::size_t k);
+  void AddMedian(const NodeIds& nodes, const EdgesOfPart& edges, std::size_t k);
   void DividePart(const Cell& cell, const NodeIds& nodes);
   void DivideLine(const Cell& cell, std::int32_t a, std::int32_t b, int depth);
   template <std::size_t N>
@@ -202,7 +203,9 @@ private:
 
   const CurvedMembraneSolver& Geometry;
   double Tolerance;
-  std::uint64_t Number; ///< of this object; no other one has it
+  glm::dvec3 Eye;          ///< in world coordinates
+  std::uint64_t Number;    ///< of this object; no other one has it
+  std::uint64_t Batch = 0; ///< number of the points that are solved together next
   /**
    * Indexed by a hash of the middle's coordinates, one entry each; a new entry replaces the old
    * one. The next object of the same thread takes over the memory.

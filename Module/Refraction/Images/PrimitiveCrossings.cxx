@@ -36,9 +36,21 @@ const PrimitiveMapper::Meeting& PrimitiveMapper::FindMeeting(
   {
     const SubCellNode& a = nodes[static_cast<std::size_t>((edge + 1) % 3)];
     const SubCellNode& b = nodes[static_cast<std::size_t>((edge + 2) % 3)];
-    meeting.From = MeetLine(SubCellSide(*context.Patch, a.B, b.B), this->Geometry.GetMedia(),
-      context.Sides[static_cast<std::size_t>(side)].Line, a.From, b.From, meeting.Place);
-    meeting.IsKnown = true;
+    const SubCellSide curve(*context.Patch, a.B, b.B);
+    const auto k = static_cast<std::size_t>(side);
+    const std::size_t turned = context.Sides[k].Turned ? 1 : 0;
+    const auto compute = [this, &context, &a, &b, &curve, k]()
+    {
+      KnownMeetings::Meeting met;
+      met.From =
+        MeetLine(curve, this->Geometry.GetMedia(), context.Sides[k].Line, a.From, b.From, met.Zero);
+      return met;
+    };
+    const KnownMeetings::Meeting& known = this->Known.Get(
+      KnownMeetings::Key::Make(this->Geometry.GetMembrane(), context.Facet, curve,
+        context.Primitive.Ids[(k + turned) % 3], context.Primitive.Ids[(k + 1 - turned) % 3]),
+      compute);
+    meeting = { known.From, curve.IsTurned() ? 1.0 - known.Zero : known.Zero, true };
   }
   return meeting;
 }

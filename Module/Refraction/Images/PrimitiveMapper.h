@@ -13,6 +13,7 @@
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Images/ImageMesh.h"
+#include "Refraction/Images/KnownMeetings.h"
 #include "Refraction/Images/ObjectPrimitive.h"
 #include "Refraction/Images/SubCellBend.h"
 #include "Refraction/Images/SubCellDivision.h"
@@ -152,6 +153,7 @@ private:
   const CurvedMembraneSolver& Geometry;
   double Tolerance;
   SubCellDivision Division;
+  mutable KnownMeetings Known;
 };
 
 }

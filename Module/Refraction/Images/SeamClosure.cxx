@@ -163,18 +163,42 @@ SeamClosure::SeamClosure(
 void SeamClosure::Collect(
   const ImageMesh& mesh, const std::vector<ImagePoint>& points, bool areWhole)
 {
+  // Most points are on no seam, and their cells need not read them.
+  std::vector<char> mayBeOnSeam(points.size());
+  std::transform(points.begin(), points.end(), mayBeOnSeam.begin(),
+    [this](const ImagePoint& point) { return this->MayBeOnSeam(point) ? 1 : 0; });
   std::int64_t begin = 0;
   for (std::size_t cell = 0; cell < mesh.GetNumberOfCells(); ++cell)
   {
     const std::int64_t end = mesh.Ends[cell];
-    const auto at = [&mesh, &points](std::int64_t i) -> const ImagePoint&
-    { return points[static_cast<std::size_t>(mesh.Connectivity[static_cast<std::size_t>(i)])]; };
     for (std::int64_t i = begin; i < end; ++i)
     {
-      this->AddPart(mesh, cell, at(i), at(i + 1 < end ? i + 1 : begin), areWhole);
+      const auto at = [&mesh](std::int64_t k)
+      { return static_cast<std::size_t>(mesh.Connectivity[static_cast<std::size_t>(k)]); };
+      const std::size_t a = at(i);
+      const std::size_t b = at(i + 1 < end ? i + 1 : begin);
+      if (mayBeOnSeam[a] && mayBeOnSeam[b])
+      {
+        this->AddPart(mesh, cell, points[a], points[b], areWhole);
+      }
     }
     begin = end;
   }
+}
+
+//------------------------------------------------------------------------------
+// True if the point comes from one or two points of the object, at all of which there are seams.
+// The ends of a diagonal are such points, too: corners of a mapped polygon.
+bool SeamClosure::MayBeOnSeam(const ImagePoint& point) const
+{
+  const std::size_t count = point.GetNumberOfSources();
+  return count <= 2 &&
+    std::all_of(point.Source.begin(), point.Source.begin() + count,
+      [this](std::int64_t id)
+      {
+        const auto i = static_cast<std::size_t>(id);
+        return i < this->HasSeam.size() && this->HasSeam[i];
+      });
 }
 
 //------------------------------------------------------------------------------
@@ -184,13 +208,6 @@ void SeamClosure::AddPart(
 {
   Seam seam;
   if (!FindCommonSide(a, b, seam))
-  {
-    return;
-  }
-  const auto high = static_cast<std::size_t>(seam.High);
-  // The ends of a diagonal are corners of a mapped polygon, at all of which there are seams.
-  if (high >= this->HasSeam.size() || !this->HasSeam[high] ||
-    !this->HasSeam[static_cast<std::size_t>(seam.Low)])
   {
     return;
   }
@@ -353,10 +370,12 @@ std::vector<SeamClosure::Part> SeamClosure::FindFreeSides(
   using Key = decltype(GetKey(std::declval<ImagePoint>()));
   std::map<std::tuple<std::int64_t, Key, Key>, Part> free;
   std::int64_t begin = 0;
+  bool isWanted = false;
   for (std::size_t cell = 0; cell < mesh.GetNumberOfCells() && !polygons.empty(); ++cell)
   {
     const std::int64_t end = mesh.Ends[cell];
-    const bool isWanted = polygons.count(mesh.SourceCells[cell]) > 0;
+    const bool isNext = cell == 0 || mesh.SourceCells[cell] != mesh.SourceCells[cell - 1];
+    isWanted = isNext ? polygons.count(mesh.SourceCells[cell]) > 0 : isWanted;
     for (std::int64_t i = begin; i < end && isWanted; ++i)
     {
       const auto at = [&mesh](std::int64_t k) -> const ImagePoint& {

@@ -165,6 +165,7 @@ private:
     Parts Open;
   };
 
+  bool MayBeOnSeam(const ImagePoint& point) const;
   void AddPart(const ImageMesh& mesh, std::size_t cell, const ImagePoint& a, const ImagePoint& b,
     bool isWhole);
   void CloseSeam(Parts parts, Parts& open, ImageMesh& mesh) const;

@@ -104,12 +104,12 @@ PatchPoint SubCellSide::Evaluate(double s) const
 
 //------------------------------------------------------------------------------
 RefractedPoint MeetLine(const SubCellSide& side, const Media& media, const ObjectLine& line,
-  const RefractedPoint& a, const RefractedPoint& b, double& place)
+  const RefractedPoint& a, const RefractedPoint& b, double& zero)
 {
   const RefractedPoint& start = side.IsTurned() ? b : a;
   const RefractedPoint& end = side.IsTurned() ? a : b;
   const double length = glm::length(line.Direction);
-  const double zero = FindZero(GetMoment(line, start), GetMoment(line, end),
+  zero = FindZero(GetMoment(line, start), GetMoment(line, end),
     [&side, &media, &line, length](double s, double& value)
     {
       const RefractedPoint from = RefractAt(side.Evaluate(s), media);
@@ -118,7 +118,6 @@ RefractedPoint MeetLine(const SubCellSide& side, const Media& media, const Objec
       return std::fabs(value) <=
         4.0 * Epsilon * length * glm::length(from.At.Position - line.Origin);
     });
-  place = side.IsTurned() ? 1.0 - zero : zero;
   return zero == 0.0 ? start : (zero == 1.0 ? end : RefractAt(side.Evaluate(zero), media));
 }
 

@@ -106,23 +106,31 @@ public:
   PatchPoint Evaluate(double s) const;
   /** True if the side runs from b to a. */
   bool IsTurned() const { return this->Turned; }
+  /** Edge of the patch that the side lies on; -1 for a side in the interior. */
+  int GetEdge() const { return this->Edge; }
+  /**
+   * Places of the ends in the direction of the side: barycentric coordinates, or, on an edge, the
+   * weight of its far vertex and 0. They are the same in both patches of an edge.
+   */
+  const glm::dvec2& GetFrom() const { return this->From; }
+  const glm::dvec2& GetTo() const { return this->To; }
 
 private:
   const CurvedPatch& Patch;
-  int Edge = -1; ///< edge of the patch that the side lies on; -1 for a side in the interior
+  int Edge = -1;
   bool Turned = false;
   bool FarIsFirst = false;
-  glm::dvec2 From;
-  glm::dvec2 To;
+  glm::dvec2 From{ 0.0 };
+  glm::dvec2 To{ 0.0 };
 };
 
 /**
  * Point of the side, with the ends `a` and `b`, whose ray meets the line. The rays of the two ends
  * must pass the line on different sides; otherwise the result is the end whose ray passes it more
- * closely. `place` becomes the point's parameter, from 0 at `a` to 1 at `b`.
+ * closely. `zero` becomes the point's parameter in the direction of the side, from 0 to 1.
  */
 RefractedPoint MeetLine(const SubCellSide& side, const Media& media, const ObjectLine& line,
-  const RefractedPoint& a, const RefractedPoint& b, double& place);
+  const RefractedPoint& a, const RefractedPoint& b, double& zero);
 
 /**
  * Point where the side meets the plane through `point` with `normal`. The two ends must lie on
