@@ -7,6 +7,7 @@
 #include "Rendering/Pass/LightForNormals.h"
 #include "Rendering/Pass/MembraneComposer.h"
 #include "Rendering/Pass/ObjectShader.h"
+#include "Rendering/Pass/OpaqueObjects.h"
 #include "Rendering/Pass/PictureSize.h"
 #include "Rendering/Pass/RefractionTarget.h"
 #include "Rendering/Pass/ShadowCasters.h"
@@ -260,7 +261,7 @@ bool vtkRefractionPass::PreReplaceShaderValues(std::string& vertexShader,
       {
         meniscus::LightInTrueSpace(sources, refraction->ReadsTables, refraction->HasShadows);
       }
-      meniscus::SeeThroughMedium(sources);
+      meniscus::SeeThroughMedium(sources, refraction ? refraction->Seen : meniscus::SeenThrough());
       break;
     }
   }
@@ -355,10 +356,7 @@ void vtkRefractionPass::Render(const vtkRenderState* state)
 }
 
 //------------------------------------------------------------------------------
-/**
- * Draws the part of the volumes in front of the membrane or next to it to the framebuffer of the
- * scene.
- */
+/** Draws the part of the volumes in front of the membrane, or next to it, over the scene. */
 void vtkRefractionPass::DrawInFront(
   const vtkRenderState* drawn, vtkOpenGLRenderWindow* window, vtkActor* membrane)
 {
@@ -433,7 +431,7 @@ void vtkRefractionPass::DrawObjects(
     objects.SetPropArrayAndCount(props.data(), static_cast<int>(props.size()));
     objects.SetFrameBuffer(target.Buffer);
     this->PreRender(&objects);
-    internals.Opaque->Render(&objects);
+    meniscus::DrawOpaque(internals.Opaque, &objects, state);
     internals.Translucent->Render(&objects);
     this->PostRender(&objects);
     internals.ActivateTables(nullptr, nullptr, glm::dvec3(0.0));
@@ -617,22 +615,21 @@ void vtkRefractionPass::UpdateWaves(vtkRenderer* renderer, meniscus::Refraction&
 }
 
 //------------------------------------------------------------------------------
-/**
- * Decides which objects are lit in true space. Mappers make their shaders again if that has
- * changed.
- */
+/** Decides how objects are lit and what they are seen through. Changed shaders are made again. */
 void vtkRefractionPass::ChooseLighting()
 {
   vtkInternals& internals = *this->Internals;
   for (meniscus::Refraction& refraction : internals.Refractions.All)
   {
     const bool before = refraction.IsLitInTrueSpace;
+    const meniscus::SeenThrough seen = refraction.Seen;
     const std::string error = refraction.ChooseLighting(this->Lighting == TRUE_SPACE);
     if (!error.empty())
     {
       vtkErrorMacro(<< error << ". The object is lit in virtual space.");
     }
-    if (before != refraction.IsLitInTrueSpace)
+    refraction.Seen = refraction.ListSeenThrough(internals.Medium);
+    if (before != refraction.IsLitInTrueSpace || !(seen == refraction.Seen))
     {
       internals.ShaderTime.Modified();
     }
