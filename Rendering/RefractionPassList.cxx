@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/RefractionPassList.h"
 
-#include "Rendering/Pass/ObjectShader.h"
 #include "Rendering/Pass/TrueSpaceLighting.h"
 #include "Rendering/Pass/ViewBounds.h"
 
@@ -58,6 +57,14 @@ std::vector<double> Refraction::ListRelativeIndices() const
     indices.push_back(interfaces->GetInterface(i)->GetInteriorIndexOfRefraction() / exterior);
   }
   return indices;
+}
+
+//------------------------------------------------------------------------------
+SeenThrough Refraction::ListSeenThrough(const RefractionMedium& medium) const
+{
+  // Known before the filter has run.
+  const bool isOne = this->Filter && this->Filter->GetInterfaces()->GetNumberOfItems() < 2;
+  return { !medium.IsClear(), !isOne };
 }
 
 //------------------------------------------------------------------------------

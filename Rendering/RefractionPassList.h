@@ -3,7 +3,10 @@
 #pragma once
 
 #include "Rendering/Pass/LocalPlaces.h"
+#include "Rendering/Pass/ObjectShader.h"
 #include "Rendering/Pass/WaveLight.h"
+
+#include "Volume/Optics/RefractionMedium.h"
 
 #include "vtkActor.h"
 #include "vtkProp3D.h"
@@ -46,6 +49,8 @@ struct Refraction
   bool ReadsTables = false;
   /** True if objects cast shadows on it. */
   bool HasShadows = false;
+  /** Parts of the way to the object that its shader computes. */
+  SeenThrough Seen{};
   /** Array of sight points that its mapper's shader gets. */
   std::string SightArray{};
 
@@ -56,6 +61,9 @@ struct Refraction
   bool CastsShadows() const;
   /** Index of refraction behind each interface, relative to the medium in front of the first. */
   std::vector<double> ListRelativeIndices() const;
+
+  /** Parts of the way to an object of the filter. */
+  SeenThrough ListSeenThrough(const RefractionMedium& medium) const;
 
   /**
    * Decides whether the object is lit in true space, and maps the arrays that this needs. Returns

@@ -6,6 +6,7 @@
 #include "Filters/Common/Accessors.h"
 #include "Rendering/Pass/LightForNormals.h"
 #include "Rendering/Pass/ObjectShader.h"
+#include "Rendering/Pass/OpaqueObjects.h"
 #include "Rendering/Pass/PictureSize.h"
 #include "Rendering/Pass/ViewBounds.h"
 #include "Rendering/Property/MediumUniforms.h"
@@ -144,7 +145,7 @@ bool vtkRefractionPass::PreReplaceShaderValues(std::string& vertexShader,
       {
         meniscus::LightInTrueSpace(sources, refraction->ReadsTables, refraction->HasShadows);
       }
-      meniscus::SeeThroughMedium(sources);
+      meniscus::SeeThroughMedium(sources, refraction ? refraction->Seen : meniscus::SeenThrough());
       break;
     }
   }
@@ -239,10 +240,7 @@ void vtkRefractionPass::Render(const vtkRenderState* state)
 }
 
 //------------------------------------------------------------------------------
-/**
- * Draws the part of the volumes in front of the membrane or next to it to the framebuffer of the
- * scene.
- */
+/** Draws the part of the volumes in front of the membrane, or next to it, over the scene. */
 void vtkRefractionPass::DrawInFront(
   const vtkRenderState* drawn, vtkOpenGLRenderWindow* window, vtkActor* membrane)
 {
@@ -317,7 +315,7 @@ void vtkRefractionPass::DrawObjects(
     objects.SetPropArrayAndCount(props.data(), static_cast<int>(props.size()));
     objects.SetFrameBuffer(target.Buffer);
     this->PreRender(&objects);
-    internals.Opaque->Render(&objects);
+    meniscus::DrawOpaque(internals.Opaque, &objects, state);
     internals.Translucent->Render(&objects);
     this->PostRender(&objects);
     internals.ActivateTables(nullptr, nullptr, glm::dvec3(0.0));
@@ -401,22 +399,21 @@ void vtkRefractionPass::Compose(
 }
 
 //------------------------------------------------------------------------------
-/**
- * Decides which objects are lit in true space. Mappers make their shaders again if that has
- * changed.
- */
+/** Decides how objects are lit and what they are seen through. Changed shaders are made again. */
 void vtkRefractionPass::ChooseLighting()
 {
   vtkInternals& internals = *this->Internals;
   for (meniscus::Refraction& refraction : internals.Refractions.All)
   {
     const bool before = refraction.IsLitInTrueSpace;
+    const meniscus::SeenThrough seen = refraction.Seen;
     const std::string error = refraction.ChooseLighting(this->Lighting == TRUE_SPACE);
     if (!error.empty())
     {
       vtkErrorMacro(<< error << ". The object is lit in virtual space.");
     }
-    if (before != refraction.IsLitInTrueSpace)
+    refraction.Seen = refraction.ListSeenThrough(internals.Medium);
+    if (before != refraction.IsLitInTrueSpace || !(seen == refraction.Seen))
     {
       internals.ShaderTime.Modified();
     }

@@ -3,6 +3,7 @@
 #include "RefractionReport.h"
 
 #include "Accuracy.h"
+#include "DrawingFloor.h"
 #include "Frames.h"
 #include "Growth.h"
 #include "Pool.h"
@@ -68,6 +69,7 @@ public:
     this->GetRow(
       "pool picture", "< 0.5 % of the water differs by more than 8/255", [] { return MakePool(); });
     this->GetRow("Embree", "eye moving >= 2x, colours alone >= 10x", [] { return GetRaces(); });
+    this->GetRow("drawing floor", "", [] { return GetFloor(); });
   }
 
 private:
@@ -257,6 +259,17 @@ private:
       }
     }
     return text.empty() ? "skipped: built without Embree" : text;
+  }
+
+  static std::string GetFloor()
+  {
+    std::string text;
+    for (const FloorFrame& frame : MeasureDrawingFloor())
+    {
+      text += (text.empty() ? "" : "; ") + frame.What + " " + MakeNumber(frame.Ms, 3) +
+        " ms CPU, not blended " + MakeNumber(frame.UnblendedMs, 3);
+    }
+    return text;
   }
 
   std::ostream& Out;

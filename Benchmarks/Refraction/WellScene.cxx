@@ -6,8 +6,12 @@
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkCommand.h>
 #include <vtkDoubleArray.h>
 #include <vtkMath.h>
+#include <vtkOpenGLError.h> // OpenGL itself, with whichever loader VTK uses
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -226,6 +230,10 @@ void WellScene::SetUpWindow()
     this->Mapper->SetInputData(this->Well);
     this->Actor->SetScale(1.0, this->GetScale(), 1.0);
   }
+  else if (this->Instead)
+  {
+    this->Mapper->SetInputData(this->Instead);
+  }
   else
   {
     this->Mapper->SetInputConnection(this->Filter->GetOutputPort());
@@ -234,6 +242,7 @@ void WellScene::SetUpWindow()
   this->Actor->SetMapper(this->Mapper);
   this->Actor->GetProperty()->LightingOff();
   this->Renderer->AddActor(this->Actor);
+  this->Renderer->AddObserver(vtkCommand::StartEvent, this, &WellScene::PrepareState);
   this->Window->SetOffScreenRendering(1);
   this->Window->SetMultiSamples(0);
   this->Window->SetSize(512, 512);
@@ -244,6 +253,13 @@ void WellScene::SetUpWindow()
   camera->SetViewUp(0.0, 0.0, 1.0);
   camera->SetClippingRange(100.0, 1000.0);
   this->HasWindow = true;
+}
+
+//------------------------------------------------------------------------------
+void WellScene::PrepareState()
+{
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(this->Window);
+  window->GetState()->SetEnumState(GL_BLEND, this->Blends);
 }
 
 //------------------------------------------------------------------------------

@@ -76,6 +76,10 @@ public:
    * at rest are divided by the ratio of the indices, as Diefenbach does for flat water.
    */
   void UseMatrix();
+  /** Draws other data instead of the filter's output, without a change. */
+  void DrawInstead(vtkPolyData* data) { this->Instead = data; }
+  /** Whether opaque geometry is blended, as VTK does. */
+  void SetBlending(bool isOn) { this->Blends = isOn; }
 
   /**
    * Places of the well that the present eye sees through the present membrane, by rays in double
@@ -88,6 +92,8 @@ public:
 private:
   void SetUpWindow();
   double GetScale() const;
+  /** Sets VTK's state before the actors are drawn. */
+  void PrepareState();
 
   WellSurface Surface;
   reference::HeightField Field;
@@ -96,6 +102,7 @@ private:
   glm::dvec3 Eye{ 0.0 };
   vtkSmartPointer<vtkPolyData> Well;
   vtkSmartPointer<vtkPolyData> Membrane;
+  vtkSmartPointer<vtkPolyData> Instead;
   vtkNew<vtkRefractedGeometryFilter> Filter;
   vtkNew<vtkPolyDataMapper> Mapper;
   vtkNew<vtkActor> Actor;
@@ -103,6 +110,7 @@ private:
   vtkNew<vtkRenderWindow> Window;
   bool HasWindow = false;
   bool HasMatrix = false;
+  bool Blends = true;
 };
 
 } // namespace meniscus::benchmark

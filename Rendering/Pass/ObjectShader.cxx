@@ -59,17 +59,25 @@ void MapMediumArrays(vtkPolyDataMapper* mapper)
 }
 
 //------------------------------------------------------------------------------
-void SeeThroughMedium(const ShaderSources& sources)
+void SeeThroughMedium(const ShaderSources& sources, const SeenThrough& seen)
 {
   PassOn(sources, "float", "refractionDepth");
-  PassOn(sources, "float", "innerReflectance");
   // The functions of the medium come first in the source: others use them.
   AppendToShader(sources.Fragment, Declarations,
     std::string(vtkMediumTransmittance) + "uniform float innerReflects;");
-  // Behind VTK's textures, which multiply the colour.
-  AppendToShader(sources.Fragment, "  //VTK::TCoord::Impl",
-    "  gl_FragData[0].rgb = (1.0 - innerReflects * innerReflectanceVSOutput) *\n"
-    "    inMedium(gl_FragData[0].rgb, max(refractionDepthVSOutput, 0.0));");
+  // Behind VTK's textures, which multiply the colour; the last step is inserted first.
+  constexpr const char* textured = "  //VTK::TCoord::Impl";
+  if (seen.HasInnerInterfaces)
+  {
+    PassOn(sources, "float", "innerReflectance");
+    AppendToShader(sources.Fragment, textured,
+      "  gl_FragData[0].rgb *= 1.0 - innerReflects * innerReflectanceVSOutput;");
+  }
+  if (seen.HasMedium)
+  {
+    AppendToShader(sources.Fragment, textured,
+      "  gl_FragData[0].rgb = inMedium(gl_FragData[0].rgb, max(refractionDepthVSOutput, 0.0));");
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -22,8 +22,22 @@ void AppendToShader(std::string& source, const std::string& tag, const std::stri
 
 /** Maps the arrays of a refracted object to the vertex attributes that SeeThroughMedium() reads. */
 void MapMediumArrays(vtkPolyDataMapper* mapper);
-/** Replaces the colour of a refracted object by that which is seen through the medium. */
-void SeeThroughMedium(const ShaderSources& sources);
+/** Parts of the way from the first interface to a refracted object that change its colour. */
+struct SeenThrough
+{
+  /** True if the medium takes light. */
+  bool HasMedium = true;
+  /** True if interfaces behind the first one reflect light. */
+  bool HasInnerInterfaces = true;
+
+  bool operator==(const SeenThrough& other) const
+  {
+    return this->HasMedium == other.HasMedium &&
+      this->HasInnerInterfaces == other.HasInnerInterfaces;
+  }
+};
+/** Replaces the colour of a refracted object by that which is seen. */
+void SeeThroughMedium(const ShaderSources& sources, const SeenThrough& seen);
 
 /**
  * Maps the arrays of true positions to the vertex attributes that LightInTrueSpace() reads.
