@@ -4,7 +4,7 @@
 // without the cells that were left out). Never a crash.
 #include "HardMeshes.h"
 #include "RayCastScene.h"
-#include "WaterParts.h"
+#include "SceneParts.h"
 
 #include <vtkLongLongArray.h>
 
