@@ -13,14 +13,14 @@
  * are divided into triangles. Composite data runs block by block.
  *
  * Input port 1 is the membrane, a vtkPolyData with triangles, polygons or strips that separate the
- * eye's medium (exterior) from the geometry's (interior). Its normals point to the eye's
- * side: its point normals are used where they are valid, others are computed from the facets'
- * winding. If most of them do not fit the triangles around them, for example after a filter that
- * moves points only, the filter warns. Facets whose winding is opposite to most of their piece,
- * and normals on the other side than most, are reversed, with a warning; a one-sided surface
- * (a Moebius band) is an error. A closed membrane is a body of the interior medium if its normals
- * point outwards, or a bubble of the exterior medium if they point inwards; geometry on the eye's
- * side of it is shown unchanged. Ghost levels of the membrane are not requested.
+ * eye's medium (exterior) from the geometry's (interior). Its normals point to the eye's side: its
+ * point normals are used where they are valid, others are computed from the facets' winding. If
+ * most of them do not fit the triangles around them, for example after a filter that moves points
+ * only, the filter warns. Facets whose winding is opposite to most of their piece, and normals that
+ * point to the other side than most, are reversed, with a warning; a one-sided surface (a Moebius
+ * band) is an error. A closed membrane is a body of the interior medium if its normals point
+ * outwards, or a bubble of the exterior medium if they point inwards; geometry on the eye's side of
+ * it is shown unchanged. Ghost levels of the membrane are not requested.
  *
  * The output shows every image of the geometry (ALL_IMAGES), or one per point with the input's own
  * connectivity (FIRST_IMAGE), with all point and cell arrays. Each image of a point of a vertex
@@ -199,10 +199,10 @@ public:
   /** @{ */
   /**
    * Set/Get whether cells and points that the camera cannot show through the membrane are left out
-   * unsolved: those that, by conservative bounds, no facet in its view shows and that are not in
-   * front of the membrane. The part in view does not change. Turn this off if other cameras look at
-   * the output. It has no effect without a camera, or with one in parallel projection. Default is
-   * on.
+   * without being solved: by conservative bounds, no facet in its view shows them, and they are not
+   * in front of the membrane. The part in view does not change. Turn this off if other cameras look
+   * at the output. It has no effect without a camera, or with one in parallel projection. Default
+   * is on.
    */
   vtkSetMacro(ViewCulling, bool);
   vtkGetMacro(ViewCulling, bool);
@@ -251,7 +251,7 @@ public:
    * listed twice, entered and left. Rays that miss a later surface, or are totally reflected at it,
    * show nothing. Points between interfaces are refracted by the interfaces in front of them, and
    * an eye between interfaces looks through the interfaces behind it. Interfaces with equal indices
-   * are left out. MembraneModel must be CURVED, and the light of VirtualNormals at the eye;
+   * are left out. MembraneModel must be CURVED, and the light of VirtualNormals must be at the eye;
    * ViewCulling has no effect. With ALL_IMAGES, the part of a cell in front of all interfaces is
    * drawn only where the sight rays through it go on to the first interface. RefractionDepth is the
    * sum of the legs behind the first sight point. Point arrays added: `LegLengths` (a length behind
@@ -309,8 +309,8 @@ public:
    * Set/Get the largest error, in degrees at the eye, where images of lines and polygons are drawn
    * straight between their points (ALL_IMAGES). For comparison, a pixel is 0.06 degrees in an image
    * of 512 pixels and a view angle of 30 degrees. A triangle is divided until it has 65,536 points;
-   * a warning tells how many have larger errors then. Default is 0.005. Range 1e-8, for eyes far
-   * away, to 10.
+   * a warning states how many triangles then have larger errors. Default is 0.005. Range 1e-8, for
+   * eyes far away, to 10.
    */
   virtual void SetAngularTolerance(double tolerance);
   vtkGetMacro(AngularTolerance, double);
@@ -436,9 +436,10 @@ public:
    * Value, which belongs to this object and is filled anew by each call; and the value of one name,
    * such as "NumberOfSkippedCells". An unknown name is an error, and the value is not a number.
    *
-   * The filter warns once per shape of the membrane of searches that may have missed an image, and
-   * once per change of an eye that is enclosed, or that sees the membrane through another piece of
-   * it: rays that meet both pieces are refracted at one of them only.
+   * For each shape of the membrane, the filter warns once if a search may have missed an image.
+   * After each change of the eye, it warns once if the membrane encloses the eye, or if the eye
+   * sees the membrane through another piece of it: rays that meet both pieces are refracted at one
+   * of them only.
    */
   vtkTable* GetStatistics();
   double GetStatistic(const char* name);
@@ -446,8 +447,9 @@ public:
 
   /** @{ */
   /**
-   * The virtual geometry. Of composite data, whose output is composite too (GetOutputDataObject()),
-   * all blocks in one object, with the arrays that all of them have. Call Update() before.
+   * The virtual geometry. For composite data, whose output is composite too
+   * (GetOutputDataObject()), it has all blocks in one object, with the arrays that all of them
+   * have. Call Update() before.
    */
   vtkPolyData* GetOutput();
   vtkPolyData* GetOutput(int port) { return port == 0 ? this->GetOutput() : nullptr; }

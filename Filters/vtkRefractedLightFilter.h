@@ -23,9 +23,9 @@
  * light, projected along the direction of the light, and the Fresnel reflectance F there (Eq. 2.6
  * of the thesis that Documentation/refraction-method.md summarises). With the light in place of the
  * eye, these parts consist of the sight points of the cell's images, which
- * vtkRefractedGeometryFilter computes. Where the light is folded, a cell has several images, which
- * are added. The sum over all cells is therefore the light that the membrane transmits, whatever
- * the size of the cells. A point has the mean of its cells, weighted by area.
+ * vtkRefractedGeometryFilter computes. Where the light is folded, a cell has several images, whose
+ * light is added. The sum over all cells is therefore the light that the membrane transmits,
+ * whatever the size of the cells. A point has the mean of its cells, weighted by area.
  *
  * Port 1 is repeatable; see SetInterfaces() for several surfaces.
  *

@@ -14,8 +14,8 @@
  * TETGEN runs TetGen as a program of its own, meniscus_tetgen, which is built with the CMake option
  * MENISCUS_WITH_TETGEN. TetGen adds points until the ratio of circumscribed radius to shortest edge
  * is below MaximumRadiusEdgeRatio, except for some cells: there is no such mesh next to triangles
- * of the surface that have or meet at angles below about 60 degrees, and TetGen leaves about one
- * cell in a hundred elsewhere. GetNumberOfCellsAboveRatio() counts them.
+ * of the surface that have angles, or meet at angles, below about 60 degrees. Elsewhere TetGen
+ * leaves about one cell in a hundred. GetNumberOfCellsAboveRatio() counts them.
  *
  * DELAUNAY uses vtkDelaunay3D. It adds no points, so that there is no bound of quality, and the
  * surface must have triangles that are small against its curvature and its thickness: each must be
@@ -26,8 +26,8 @@
  *
  * Numerical point arrays are passed on. At points that were added on the surface, they are
  * interpolated in the triangle; inside they are continued harmonically, so that a linear field
- * stays linear. Global and pedigree ids are left out. An array that cannot be continued, for
- * values that are not finite, is NaN inside (integers: 0), with a warning.
+ * stays linear. Global and pedigree ids are left out. An array that cannot be continued, because
+ * some of its values are not finite, is NaN inside (integers: 0), with a warning.
  *
  * The observers of ProgressEvent are called while TetGen runs; SetAbortExecute(1) ends it.
  *

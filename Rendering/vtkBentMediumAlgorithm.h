@@ -58,7 +58,7 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the Gladstone-Dale constant, by which a density is multiplied to n - 1: its unit is one
+   * Set/Get the Gladstone-Dale constant: n - 1 is this constant times the density. Its unit is one
    * over the density's. Default is 2.26157e-4 m^3/kg: dry air at 589.3 nm, by Ciddor's equations
    * (Applied Optics 35, 1996).
    */

@@ -38,8 +38,8 @@
  * Behind several interfaces (vtkRefractedGeometryFilter::SetInterfaces()), T also contains
  * Fresnel's transmittance of the interfaces behind the first one that are in front of the object,
  * from the array InnerReflectance, with either model of the reflectance. The share of R and of the
- * background is the reflectance of all interfaces, the first 16 of them, as parallel plates have it
- * with the light that is reflected between them: a pane in air reflects 0.077 of the light at
+ * background is the reflectance of all interfaces (at most the first 16). It includes light that is
+ * reflected between them, as for parallel plates: a pane in air reflects 0.077 of the light at
  * vertical incidence. The membrane's actor shows the surface of the first interface.
  *
  * Deviation from the thesis: T is drawn to a separate image, which is then composited at the
@@ -241,8 +241,8 @@ public:
   /** @{ */
   /**
    * Set/Get how objects behind membranes are lit. With VIRTUAL_SPACE, the default, VTK's lighting
-   * is exact for a light at the eye with VirtualNormals of the filter, and no more than plausible
-   * for others.
+   * is exact for a light at the eye with VirtualNormals of the filter; for other lights it is only
+   * plausible.
    *
    * TRUE_SPACE lights each fragment at its true position, with its true normal (the normal of its
    * facet, if the object has no point normals) and the direction back along the refracted ray to
@@ -262,8 +262,8 @@ public:
    *
    * Through a membrane that is not flat, or a list with such a surface, a vtkRefractedLightFilter
    * computes the light of scene lights in front of it on each object: the pattern of waves, with
-   * all ways of the light to a point. Only light through the membrane arrives then. Highlights have
-   * the mean direction of the light at a point. The light is computed again when a light, a
+   * all paths of the light to a point. Only light through the membrane arrives then. Highlights
+   * have the mean direction of the light at a point. The light is computed again when a light, a
    * membrane or an object changes, not when the camera moves; NumberOfLightCells is its resolution.
    * Lights that follow the camera, and objects of several blocks, are lit by the plane above.
    *
@@ -294,17 +294,18 @@ public:
    * objects, volumes, mirror images and actors of the renderer cast none. Points in shadow get the
    * light's ambient part only.
    *
-   * The shader follows the light's way from each pixel through a tree of the objects' triangles, so
-   * that edges are as sharp as the pixels. The way is that of the light's ray: straight, or bent at
-   * the flat membrane or at the plane that fits its points best. Through waves it is the mean ray
-   * at the point that vtkRefractedLightFilter has found; where waves send light to a point on
-   * several ways, all of it or none is in shadow. The part of an object in front of the membrane
-   * casts a shadow on the objects behind the membrane.
+   * The shader follows the path of the light from each pixel through a tree of the objects'
+   * triangles, so that edges are as sharp as the pixels. The path is that of the light's ray:
+   * straight, or bent at the flat membrane or at the plane that fits its points best. Through waves
+   * it is the mean ray at the point that vtkRefractedLightFilter has found; where waves send light
+   * to a point along several paths, all of it or none is in shadow. The part of an object in front
+   * of the membrane casts a shadow on the objects behind the membrane.
    *
    * On facets that face away from a light while their smooth normals do not, the object's next
-   * facet on the way casts no shadow: the lit side of round objects ends smoothly. The tree is made
-   * again if an object changes, appears or disappears, not for lights, membranes or the camera. The
-   * time of a frame grows with the pixels of the objects and the lights. Default is off.
+   * facet on the path casts no shadow: the lit side of round objects ends smoothly. The tree is
+   * made again if an object changes, appears or disappears, not for lights, membranes or the
+   * camera. The time of a frame grows with the pixels of the objects and the lights. Default is
+   * off.
    */
   vtkSetMacro(Shadows, bool);
   vtkGetMacro(Shadows, bool);

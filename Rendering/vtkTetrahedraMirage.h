@@ -6,7 +6,7 @@
  *
  * Traces one ray per pixel backwards through a mesh in which the index of refraction n varies,
  * until it meets an object: a mirage over a road, things behind the hot air above a fire, or behind
- * a lens of graded index. Objects may stand before, behind and in the mesh. It needs neither a
+ * a lens of graded index. Objects may stand in front of, behind and in the mesh. It needs neither a
  * window nor OpenGL. vtkBentRayAlgorithm describes the mesh, the rays and the image; with BendRays
  * off, rays are straight, as without a medium.
  *
@@ -32,8 +32,8 @@
  * - `Seen`, unsigned char: BACKGROUND, OBJECT or STOPPED, for a ray that stayed in the mesh;
  * - `CellId`, vtkIdType: cell of port 1 [-1];
  * - `Position`, 3 double: place of the object that is seen, where it is [NaN];
- * - `Depth`, float: straight distance of that place from the eye, or from the plane that parallel
- *   rays begin on [NaN];
+ * - `Depth`, float: straight distance of that place from the eye, or from the plane on which
+ *   parallel rays begin [NaN];
  * - `Direction`, 3 float: unit vector of the ray where it ends, for a picture of things far away;
  * - `RGBA`, 4 float, with a VolumeProperty: premultiplied colour and opacity of the medium in front
  *   of the object, or on the whole ray.
@@ -41,13 +41,13 @@
  * `Color` has the medium over the object or the background; the other arrays are those of the
  * object, also where the medium hides it.
  *
- * **Bad input.** Warnings: objects without polygons, which show the background alone; a texture
- * for objects without texture coordinates, which is not seen; points that are not finite, whose
+ * **Bad input.** Warnings: objects without polygons, which show the background alone; a texture for
+ * objects without texture coordinates, which is not seen; points that are not finite, whose
  * polygons are left out; rays that were stopped. GetStatistics() counts them, and the pixels that
  * see the back of a polygon, which all do if the eye is in a closed object. An eye in the mesh is
- * fine. Errors, with an empty output, besides those of the base class: neither
- * objects nor a volume property; a texture without an image of two dimensions; a volume without its
- * array, or with one in other data sets than the index; a property whose numbers permit no picture.
+ * allowed. Errors, with an empty output, besides those of the base class: neither objects nor a
+ * volume property; a texture without an image of two dimensions; a volume without its array, or
+ * with one in other data sets than the index; a property with numbers that cannot be used.
  *
  * Rays are traced in parallel by vtkSMPTools; results do not depend on the number of threads.
  *

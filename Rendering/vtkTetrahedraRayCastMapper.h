@@ -45,8 +45,8 @@
  * Several components, with COMPOSITE_BLEND, by vtkVolumeProperty's IndependentComponents: if on,
  * and if a component beyond the first has a colour or opacity function (see SetVectorMode()), two
  * to four scalars, each with its own functions and weight, as media in the same place (attenuations
- * and emissions are added; lit with GlobalIlluminationReach alone). If off, there are two
- * components, the first for colour and the second for opacity, or four: the first three are the
+ * and emissions are added). Such media are lit with GlobalIlluminationReach only. If off, there are
+ * two components, the first for colour and the second for opacity, or four: the first three are the
  * colour (unsigned char, or 0 to 1), the fourth is for opacity. Lighting then uses the gradient of
  * the last component. See Documentation/volume.md.
  *
@@ -158,9 +158,10 @@ public:
   /** @{ */
   /**
    * Set/Get the indices of refraction: exterior, on the side to which the membrane's normals point,
-   * default 1.0; and interior, on the other side, default 1.333; with several interfaces, of the
-   * first. Must be positive and finite; other values are an error if there is a membrane. If
-   * the indices are equal, the membrane changes nothing and costs nothing.
+   * default 1.0; and interior, on the other side, default 1.333. If there are several interfaces,
+   * these are the indices of the first one. Must be positive and finite; other values are an error
+   * if there is a membrane. If the indices are equal, the membrane changes nothing and costs
+   * nothing.
    */
   virtual void SetExteriorIndexOfRefraction(double index);
   virtual double GetExteriorIndexOfRefraction();
@@ -178,8 +179,8 @@ public:
    * Rays that miss the first interface are straight. Those that are totally reflected at an
    * interface, or miss a further one, are counted: see GetStatistics(). Geometry in the framebuffer
    * behind the first interface is virtual geometry, such as vtkRefractedGeometryFilter's: a point
-   * in the medium of index n is drawn n0 / n times its way behind the interface (n0: the eye's
-   * medium; the thesis's Eq. 2.4), and these lengths add up.
+   * in the medium of index n is drawn at n0 / n times the length of its path behind the interface
+   * (n0: index of the eye's medium; the thesis's Eq. 2.4), and these lengths add up.
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();
@@ -346,9 +347,9 @@ public:
    * a table as in the paper, over the scalars at both ends of a segment and its length
    * (SetPreIntegrationScalarSize(), SetPreIntegrationLengthSize()). The table is built when the
    * transfer function, a size or the longest edge of the volume in world coordinates has changed.
-   * It exists for composite blending of one component without lighting, gradient opacity and a
-   * medium behind a membrane; otherwise segments are integrated exactly, after a warning if
-   * PRE_INTEGRATED would have made a difference.
+   * It exists for composite blending of one component, without lighting, without gradient opacity
+   * and without a medium behind a membrane; otherwise segments are integrated exactly, after a
+   * warning if PRE_INTEGRATED would have made a difference.
    */
   virtual void SetIntegration(int integration);
   vtkGetMacro(Integration, int);
@@ -418,11 +419,11 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the depth that a frame writes to the window's depth buffer, so that whatever reads it
-   * afterwards sees the volume: props that are drawn later, render passes, vtkWorldPointPicker.
-   * FIRST_VISIBLE_DEPTH and OPACITY_DEPTH are the places of vtkTetrahedraVolumePicker, the latter
-   * at the accumulated opacity DepthOpacity. Behind refracting surfaces it is the depth at which
-   * the place is drawn.
+   * Set/Get the depth that a frame writes to the window's depth buffer, so that everything that
+   * reads it afterwards sees the volume: props that are drawn later, render passes,
+   * vtkWorldPointPicker. FIRST_VISIBLE_DEPTH and OPACITY_DEPTH are the places of
+   * vtkTetrahedraVolumePicker, the latter at the accumulated opacity DepthOpacity. Behind
+   * refracting surfaces it is the depth at which the place is drawn.
    *
    * The depths are computed on the processor whatever the backend is, by one more cast of every
    * image. Volumes that are drawn after this one end at its depth. Default is NO_DEPTH, which costs
@@ -440,8 +441,8 @@ public:
   /** @{ */
   /**
    * Set/Get the opacity at which a ray ends, in [0, 1]. The error of a pixel is at most 1 minus
-   * this. Default is 1 - 2^-17, in place of which images that AutoAdjustSampleDistances makes
-   * coarse have 1 - 2^-9; with 1, every ray is integrated to its end.
+   * this. Default is 1 - 2^-17, or 1 - 2^-9 in images that AutoAdjustSampleDistances makes coarse.
+   * With 1, every ray is integrated to its end.
    */
   virtual void SetEarlyTerminationOpacity(double opacity);
   vtkGetMacro(EarlyTerminationOpacity, double);
@@ -554,8 +555,8 @@ public:
    * A frame that differs from the last one neither in camera, mesh, scalars, property, lights,
    * clipping planes, membrane, settings nor in the depths of opaque geometry casts no rays and
    * shows the last image again. If only depths differ, the native backend casts the tiles of 32 x
-   * 32 pixels in which they do, the others the whole image. OpenGL backends need two repetitions.
-   * Modified() makes the next frame be cast.
+   * 32 pixels in which they differ; other backends cast the whole image. OpenGL backends need two
+   * repetitions. After Modified() the next frame is cast in any case.
    */
   vtkTable* GetStatistics();
   double GetStatistic(const char* name);

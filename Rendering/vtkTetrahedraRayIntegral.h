@@ -11,9 +11,10 @@
  *
  * Input port 0 is the mesh: any vtkDataSet or vtkCompositeDataSet that vtkTetrahedraRayCastMapper
  * takes, with the same division of cells. SetInputArrayToProcess(0, 0, 0, association, name)
- * chooses the scalar, as point or cell data; the default are the active scalars of the points, or
- * else of the cells. Path lengths and first and last depths need no scalar: without active scalars
- * every cell counts. Input port 1 takes surfaces that refract the rays, as the mapper's membranes.
+ * chooses the scalar, as point or cell data; by default, the active scalars of the points are used,
+ * or else those of the cells. Path lengths and first and last depths need no scalar: without active
+ * scalars every cell counts. Input port 1 takes surfaces that refract the rays, as the mapper's
+ * membranes.
  *
  * The output is an image of ImageSize pixels, one point per pixel. Its point arrays, all of 32-bit
  * floats with one tuple per pixel, are switched on by name (GetArraySelection()). In brackets, the
@@ -36,8 +37,8 @@
  * range has no effect.
  *
  * A cell with a scalar that is not finite is left out, as in the mapper; the statistic
- * "NumberOfTransparentCells" counts such cells. If only arrays of energy bins are wanted,
- * attenuation takes the place of the scalar.
+ * "NumberOfTransparentCells" counts such cells. If only EnergyBins of an attenuation array are
+ * switched on, that array takes the place of the scalar.
  *
  * **Energy bins.** A bin has the intensity I0 behind the mesh. The image has I0 exp(-integral of
  * mu) plus the emission e of the mesh, attenuated on its way to the viewer. mu and e are
@@ -147,7 +148,7 @@ public:
    * Set/Get the number of pixels, at least 1 by 1. Default is 256 by 256.
    *
    * The output has this extent. In the modes FITTED and PARALLEL its origin, spacing and direction
-   * put its points to the centres of the rectangle's parts; the product of the first two spacings
+   * put its points at the centres of the rectangle's parts; the product of the first two spacings
    * is a pixel's area. In the mode CAMERA the unit is a pixel: the origin is 0, the spacing 1.
    */
   vtkSetVector2Macro(ImageSize, int);
@@ -178,7 +179,8 @@ public:
    * Set/Get the tolerance of ADAPTIVE_DIVISION, > 0: the largest difference of the scalar from its
    * linear interpolation in the edges of the tetrahedra, as a fraction of the range of its finite
    * values; or the largest displacement, as four times the fraction of the diagonal of the input's
-   * points. Default is 1/256, as in the mapper; measurements take a smaller one, and a budget.
+   * points. Default is 1/256, as in the mapper; for measurements, set a smaller tolerance and a
+   * sufficient budget.
    */
   vtkSetMacro(DivisionTolerance, double);
   vtkGetMacro(DivisionTolerance, double);
@@ -187,8 +189,8 @@ public:
   /** @{ */
   /**
    * Set/Get the budget of ADAPTIVE_DIVISION: the largest number of tetrahedra that it makes, where
-   * errors are largest. A warning reports if it ends the division before the tolerance is reached.
-   * Default is 0: twice as many as FIXED_DIVISION makes, but at least 100,000.
+   * errors are largest. If the budget ends the division before the tolerance is reached, there is a
+   * warning. Default is 0: twice as many as FIXED_DIVISION makes, but at least 100,000.
    */
   virtual void SetMaximumNumberOfPieces(vtkTypeInt64 pieces);
   vtkGetMacro(MaximumNumberOfPieces, vtkTypeInt64);
@@ -240,8 +242,8 @@ public:
   /** @{ */
   /**
    * Set/Get the property of RGBA, OpticalDepth and events, which need one. RGBA is the mapper's
-   * composite blending without light. For all three, Shade and gradient opacity have no effect, and
-   * the functions of component 0 are used. Default is none.
+   * composite blending without light. For RGBA, OpticalDepth and events, Shade and gradient opacity
+   * have no effect, and the functions of component 0 are used. Default is none.
    */
   void SetVolumeProperty(vtkVolumeProperty* property);
   vtkVolumeProperty* GetVolumeProperty();

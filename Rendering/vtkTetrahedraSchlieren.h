@@ -5,10 +5,10 @@
  * @brief   shadowgraph, schlieren image and interferogram of a medium that bends light
  *
  * Casts one ray of light per pixel through a mesh in which the index of refraction n varies, and
- * writes what optical instruments make of the rays, as float arrays of a vtkImageData. It needs
- * neither a window nor OpenGL. Mesh, rays and image are those of vtkBentRayAlgorithm. Input port 1,
- * optional, is a vtkImageData with a background picture: the first component of its active point
- * scalars, its lowest slice.
+ * writes the images that optical instruments make of the rays, as float arrays of a vtkImageData.
+ * It needs neither a window nor OpenGL. Mesh, rays and image are those of vtkBentRayAlgorithm.
+ * Input port 1, optional, is a vtkImageData with a background picture: the first component of its
+ * active point scalars, its lowest slice.
  *
  * The output has these point arrays of 32-bit floats. Brackets name the values of rays that miss
  * the mesh or were stopped in it:
@@ -16,8 +16,8 @@
  *   [0];
  * - `OpticalPathDifference`: integral of n - ReferenceIndex along the ray, a length [0];
  * - `Shadowgraph`: irradiance on a screen ScreenDistance behind the mesh, over the irradiance
- *   without a medium. Light that reaches a pixel on several ways adds up, as in caustics; light of
- *   stopped rays is missing;
+ *   without a medium. Light that reaches a pixel along several paths adds up, as in caustics; light
+ *   of stopped rays is missing;
  * - `Schlieren`: share of the light that passes a knife edge, from 0 to 1 [1 - KnifeCutOff];
  * - `Interferogram`: intensity of the light superposed with a plane reference wave, from 0 to 1;
  * - `Displacement`, 2 components: shift of a background BackgroundDistance behind the mesh as seen
@@ -28,8 +28,8 @@
  * Lengths are in world coordinates, the coordinates of the input. "Behind the mesh" counts from the
  * far side of its bounding box along the middle ray.
  *
- * **Bad input.** Rays that stay in the mesh are stopped; a warning reports them, and
- * GetStatistics() counts them, and those that have passed inverted cells, where light goes back. A
+ * **Bad input.** Rays that stay in the mesh are stopped; a warning reports them. GetStatistics()
+ * counts them, and also the rays that have passed inverted cells, where light goes back. A
  * background without pixels is an error, with an empty output.
  *
  * Rays are cast in parallel by vtkSMPTools; results do not depend on the number of threads. They

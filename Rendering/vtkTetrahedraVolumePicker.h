@@ -22,15 +22,16 @@
  * camera's clipping range and the mapper's refracting surfaces are taken into account; behind such
  * surfaces the true place is picked. Early termination and pre-integration have no effect.
  *
- * Place chooses the place that the getters without an argument return. Of several volumes, the
- * picker takes the volume whose place has the smallest depth. Volumes of other mappers and other
- * props are not picked. As in VTK's pickers, only visible and pickable props count, or the props of
- * the pick list, and StartPickEvent, PickEvent and EndPickEvent are sent.
+ * Place chooses the place that the getters without an argument return. If the ray meets several
+ * volumes, the picker takes the one whose place has the smallest depth. Volumes of other mappers
+ * and other props are not picked. As in VTK's pickers, only visible and pickable props count, or
+ * the props of the pick list, and StartPickEvent, PickEvent and EndPickEvent are sent.
  *
  * A pick needs neither a frame nor OpenGL, but a render window with a size. It brings the mapper's
- * tables up to date, as a frame does, so that either finds them ready; the place of the vertices
- * about the ray is computed once per pick. Identifying the input's cells takes a table of 4 bytes
- * per tetrahedron, made at the first pick of a mesh.
+ * tables up to date, as a frame does, so that a frame after a pick finds them ready, and a pick
+ * after a frame too. The places of the vertices relative to the ray are computed once per pick.
+ * Identifying the input's cells takes a table of 4 bytes per tetrahedron, made at the first pick of
+ * a mesh.
  *
  * @sa vtkTetrahedraRayCastMapper vtkTetrahedraRayIntegral vtkVolumePicker
  */

@@ -38,9 +38,9 @@ public:
 
   /**
    * Makes an interface with these indices of refraction, on the side that the normals of its
-   * surface point to and on the other side, adds it at the end of the list, and returns it. Media
-   * have no numbers of their own: which side of an interface is the medium before it depends on the
-   * normals.
+   * surface point to and on the other side, adds it at the end of the list, and returns it. The
+   * normals decide which side of an interface has the medium in front of it; media have no numbers
+   * of their own.
    */
   vtkRefractingInterface* AddInterface(double exterior, double interior);
 
