@@ -121,7 +121,8 @@ bool PassAlike(const Links& a, const Links& b)
 /** Colour of an error, see vtkRefractionErrorVolume::SetColorLimits(). */
 std::array<unsigned char, 3> ColorOf(double error, const double limits[3])
 {
-  constexpr double darkest = 80.0; // no error: the band's colour can still be told from black
+  // Brightness of an error of 0 in the first band, of 255: its colour must not look black.
+  constexpr double darkest = 80.0;
   constexpr std::size_t channels[3] = { 1, 2, 0 }; // green, blue, red
   for (std::size_t band = 0; band < 3; ++band)
   {

@@ -25,6 +25,8 @@ public:
   static const std::vector<meniscus::Statistic<vtkTetrahedraRayCastMapper>>& List();
   std::int64_t GetHostBytes() const;
 
+  /** True in frames of still pictures: interaction asks for several frames per second. */
+  static bool IsStill(vtkVolume* volume);
   /** Takes the volume's matrix over for positions in world coordinates, if it has an inverse. */
   void SetPlace(vtkVolume* volume);
 

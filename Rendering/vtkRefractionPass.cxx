@@ -399,7 +399,10 @@ void vtkRefractionPass::Compose(
 }
 
 //------------------------------------------------------------------------------
-/** Decides how objects are lit and what they are seen through. Changed shaders are made again. */
+/**
+ * Chooses for each object the space it is lit in, and the media and interfaces it is seen through.
+ * Shaders that depend on a choice that has changed are compiled again.
+ */
 void vtkRefractionPass::ChooseLighting()
 {
   vtkInternals& internals = *this->Internals;

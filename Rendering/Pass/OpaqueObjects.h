@@ -17,8 +17,9 @@ namespace meniscus
 bool HidesAllBehind(vtkActor* actor);
 
 /**
- * Draws the opaque geometry of the state's actors. If all of them hide what is behind them, it is
- * not blended: the colours are the same, but drawing on the processor need not read the image.
+ * Draws the opaque geometry of the actors of a render state. Blending is turned off if
+ * HidesAllBehind() is true for all of them. The colours are the same, and a software rasteriser
+ * need not read the image.
  */
 void DrawOpaque(vtkOpaquePass* pass, const vtkRenderState* actors, vtkOpenGLState* state);
 

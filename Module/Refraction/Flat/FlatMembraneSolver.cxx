@@ -140,24 +140,25 @@ bool FlatMembraneSolver::HasOneCell(const glm::dvec3& point, double wall) const
 VirtualVertex FlatMembraneSolver::MakeVertex(
   const glm::dvec3& local, std::int32_t facet, const CellHit& hit) const
 {
-  const Membrane::Facet& ids = this->GetMembrane().GetFacets()[static_cast<std::size_t>(facet)];
+  const Membrane& membrane = this->GetMembrane();
+  const Membrane::Facet& ids = membrane.GetFacets()[static_cast<std::size_t>(facet)];
   glm::dvec3 sightPoint(0.0);
   glm::dvec3 normal(0.0);
   for (std::size_t i = 0; i < 3; ++i)
   {
     const double weight = hit.Weights[static_cast<int>(i)];
-    sightPoint += weight * this->GetMembrane().GetPositions()[static_cast<std::size_t>(ids[i])];
-    normal += weight * this->GetMembrane().GetNormals()[static_cast<std::size_t>(ids[i])];
+    sightPoint += weight * membrane.GetPositions()[static_cast<std::size_t>(ids[i])];
+    normal += weight * membrane.GetNormals()[static_cast<std::size_t>(ids[i])];
   }
   const glm::dvec3 sight = glm::normalize(sightPoint - this->Cells.GetEye());
   const double bent = glm::length(normal);
 
   VirtualVertex vertex;
   vertex.Depth = glm::length(local - sightPoint);
-  vertex.SightPoint = sightPoint + this->GetMembrane().GetOrigin();
+  vertex.SightPoint = sightPoint + membrane.GetOrigin();
   // Eq. 2.4.
-  vertex.Position = sightPoint + sight * (vertex.Depth * this->Exterior / this->Interior) +
-    this->GetMembrane().GetOrigin();
+  vertex.Position =
+    sightPoint + sight * (vertex.Depth * this->Exterior / this->Interior) + membrane.GetOrigin();
   // Where the corner normals cancel out, or face away from the eye (Eq. 3.1), the ray is taken to
   // be at grazing incidence.
   vertex.Cosine = bent > 0.0 ? std::max(-glm::dot(sight, normal) / bent, 0.0) : 0.0;

@@ -27,17 +27,17 @@ constexpr float LargestInterpolatedDifference = 2.0f / 255.0f;
  * refinement of a picture (M. Levoy, "Volume rendering by adaptive refinement", The Visual Computer
  * 6, 1990).
  *
- * Squares with sides of FirstSide rays begin with 3 x 3 rays. Each quarter of a square that its
- * rays do not tell well enough is divided likewise, down to rays next to each other. The rays of a
- * quarter are interpolated between its corners if
+ * In each square with sides of FirstSide rays, 3 x 3 rays are cast first. Each of its quarters is
+ * either interpolated or becomes a smaller square, which is treated likewise, down to rays next to
+ * each other. The rays of a quarter are interpolated between its corners if
  * - the second differences along the sides of the quarter, over the square's three rays, are at
  *   most LargestInterpolatedDifference;
  * - all of its rays enter the mesh equally often: none of them passes a silhouette;
  * - all of its rays end at the same depth, or behind the mesh, by opaque geometry.
  *
- * If the second differences are above four times that, all rays of the quarter are cast at once:
- * packets are not full at the end of a round. A detail that is smaller than a quarter, and that
- * none of its rays meets, is not found.
+ * If the second differences are above four times that, all rays of the quarter are cast at once,
+ * because each further round ends with packets that are not full. A detail that is smaller than a
+ * quarter is not found if no cast ray meets it.
  */
 class InterpolatedRays
 {
@@ -64,8 +64,8 @@ public:
   /** Selects the first rays. */
   void Begin(const Tile& tile);
   /**
-   * Interpolates what the rays cast so far tell, and selects further ones for the rest; returns
-   * false if there is none.
+   * Interpolates rays between those that have been cast, where their colours differ little enough.
+   * Selects further rays to cast elsewhere. Returns false if no ray is left to cast.
    */
   bool SelectMore();
 

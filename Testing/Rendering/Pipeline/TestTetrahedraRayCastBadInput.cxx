@@ -268,7 +268,7 @@ TEST(TetrahedraRayCastBadInput, AMediumWithoutMeaning)
   }
 }
 
-/** A volume without thickness shows nothing. That is told once for each change of its matrix. */
+/** A volume that its matrix makes flat is not drawn. One error says so after each change of it. */
 TEST(TetrahedraRayCastBadInput, AMatrixThatMakesTheVolumeFlat)
 {
   RayCastScene scene(MakeBlock(3, WavyField(2.0)), Smooth(), Size, Size);

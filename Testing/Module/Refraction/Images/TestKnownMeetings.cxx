@@ -53,8 +53,9 @@ void ExpectSame(const KnownMeetings::Meeting& a, const KnownMeetings::Meeting& b
 }
 
 //------------------------------------------------------------------------------
-// Both halves of all edges of a membrane of waves, and two lines: both patches of an edge have the
-// same key and ray; other halves and lines have other keys, and what is known of a key is its ray.
+// Every edge of a membrane of waves is divided into halves and cut by two lines. The two patches of
+// an edge must have the same key and the same ray for a half and a line. Another half or line must
+// have another key. KnownMeetings must return the ray that was stored for a key.
 TEST(KnownMeetings, BothPatchesOfAnEdgeHaveTheSame)
 {
   reference::HeightField field;
