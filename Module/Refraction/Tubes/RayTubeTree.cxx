@@ -15,22 +15,13 @@ namespace
 
 using Iterator = std::vector<std::int32_t>::iterator;
 
-// Smallest convenient float that is not below the value: at most two units in the last place above.
-// Values beyond the range of float become infinite, which bounds them as well.
-float RoundUp(double value)
-{
-  const auto rounded = static_cast<float>(value);
-  return static_cast<double>(rounded) >= value ? rounded
-                                               : rounded +
-      std::max(std::fabs(rounded) * std::numeric_limits<float>::epsilon(),
-        std::numeric_limits<float>::min());
-}
-
-// A rate of exactly zero would give 0 / 0 for a point on the boundary; the next larger bound is
-// also valid.
+// A rate that is not below the value: two units of the last place more than it, rounded once. A
+// rate of exactly zero would give 0 / 0 for a point on the boundary; the next larger bound is also
+// valid.
 float RoundUpRate(double value)
 {
-  const float rounded = RoundUp(value);
+  constexpr double unit = std::numeric_limits<float>::epsilon();
+  const auto rounded = static_cast<float>(value + unit * std::fabs(value));
   return std::fabs(rounded) < std::numeric_limits<float>::min() ? std::numeric_limits<float>::min()
                                                                 : rounded;
 }
@@ -144,12 +135,10 @@ void RayTubeTree::ClearBounds(Node& node, int child)
   // An inverted start box, with rates of the wrong sign, allows no t. No component of a unit
   // direction is below -1, so merging this with other bounds by maxima does not change them.
   constexpr float outside = std::numeric_limits<float>::lowest() / 2.0f;
-  for (int axis = 0; axis < 3; ++axis)
+  for (int side = 0; side < Sides; ++side)
   {
-    node.StartHigh[axis][child] = outside;
-    node.NegatedStartLow[axis][child] = outside;
-    node.DirectionHigh[axis][child] = -1.0f;
-    node.NegatedDirectionLow[axis][child] = -1.0f;
+    node.Start[side][child] = outside;
+    node.Direction[side][child] = -1.0f;
   }
 }
 
@@ -160,26 +149,28 @@ void RayTubeTree::StoreBounds(Node& node, int child, const TubeBounds& bounds) c
   {
     return;
   }
+  const auto store = [this, &node, child](int side, double start, double rate)
+  {
+    const double place = start * this->Scale;
+    node.Start[side][child] = static_cast<float>(place + Rounding * std::fabs(place));
+    node.Direction[side][child] = RoundUpRate(rate);
+  };
   for (int axis = 0; axis < 3; ++axis)
   {
-    node.StartHigh[axis][child] = RoundUp(bounds.StartHigh[axis] * this->Scale);
-    node.NegatedStartLow[axis][child] = RoundUp(-bounds.StartLow[axis] * this->Scale);
-    node.DirectionHigh[axis][child] = RoundUpRate(bounds.DirectionHigh[axis]);
-    node.NegatedDirectionLow[axis][child] = RoundUpRate(-bounds.DirectionLow[axis]);
+    store(axis, bounds.StartHigh[axis], bounds.DirectionHigh[axis]);
+    store(axis + 3, -bounds.StartLow[axis], -bounds.DirectionLow[axis]);
   }
 }
 
 //------------------------------------------------------------------------------
 void RayTubeTree::MergeChild(Node& node, int child, const Node& from)
 {
-  for (int axis = 0; axis < 3; ++axis)
+  const auto largest = [](const float(&lanes)[Width])
+  { return std::max(std::max(lanes[0], lanes[1]), std::max(lanes[2], lanes[3])); };
+  for (int side = 0; side < Sides; ++side)
   {
-    const auto largest = [](const float(&lanes)[Width])
-    { return *std::max_element(lanes, lanes + Width); };
-    node.StartHigh[axis][child] = largest(from.StartHigh[axis]);
-    node.NegatedStartLow[axis][child] = largest(from.NegatedStartLow[axis]);
-    node.DirectionHigh[axis][child] = largest(from.DirectionHigh[axis]);
-    node.NegatedDirectionLow[axis][child] = largest(from.NegatedDirectionLow[axis]);
+    node.Start[side][child] = largest(from.Start[side]);
+    node.Direction[side][child] = largest(from.Direction[side]);
   }
 }
 

@@ -9,8 +9,8 @@
  * is one pass of minima and maxima, and a point is tested by intersecting six half-lines of t.
  *
  * Topology depends on the facets alone and is built once per shape; bounds are refitted per eye.
- * Bounds are floats rounded outwards, in units of the membrane's radius; queries add the rounding
- * of the point and of the test itself, so no cell is missed.
+ * Bounds are floats rounded outwards, in units of the membrane's radius, and wider by the rounding
+ * of the test itself; queries add that of the point, so no cell is missed.
  */
 #pragma once
 
@@ -99,6 +99,11 @@ private:
   // which leaves at most three more entries on the stack.
   static constexpr std::size_t StackSize = 64;
 
+  /** Constraints of a tube: its upper sides along x, y and z, and its lower ones, negated. */
+  static constexpr int Sides = 6;
+  /** Bound of the rounding of a start or a point in a test, relative to it; see Overlaps(). */
+  static constexpr double Rounding = 4.0 * std::numeric_limits<float>::epsilon();
+
   /**
    * Four children, each an inner node or one facet. They are stored by component, so that one loop
    * over lanes tests all four. Rates are never zero and the lower ones are negated, so that all six
@@ -106,19 +111,17 @@ private:
    */
   struct Node
   {
-    float StartHigh[3][Width];
-    float NegatedStartLow[3][Width];
-    float DirectionHigh[3][Width];
-    float NegatedDirectionLow[3][Width];
+    float Start[Sides][Width];
+    float Direction[Sides][Width];
     std::int32_t Link[Width];       ///< inner child: its node; otherwise NoNode
     std::int32_t FirstFacet[Width]; ///< smallest facet below an inner child; the facet of a leaf;
                                     ///< NoFacet for no child
   };
 
+  /** The point, moved against each side by the padding. */
   struct Query
   {
-    float Point[3];
-    float Padding[3];
+    float Point[Sides];
   };
 
   std::int32_t BuildNode(std::vector<std::int32_t>::iterator begin,
@@ -126,6 +129,7 @@ private:
   void StoreBounds(Node& node, int child, const TubeBounds& bounds) const;
   static void MergeChild(Node& node, int child, const Node& from);
   static void ClearBounds(Node& node, int child);
+  Query MakeQuery(const glm::dvec3& point, const glm::dvec3& padding) const;
   static unsigned Overlaps(const Node& node, const Query& query);
 
   double Scale = 1.0;
@@ -133,42 +137,51 @@ private:
 };
 
 //------------------------------------------------------------------------------
+inline RayTubeTree::Query RayTubeTree::MakeQuery(
+  const glm::dvec3& point, const glm::dvec3& padding) const
+{
+  const glm::dvec3 place = point * this->Scale;
+  const double reach =
+    std::max({ std::fabs(place.x), std::fabs(place.y), std::fabs(place.z), 1.0 });
+  Query query;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double slack = padding[axis] * this->Scale;
+    const double wide = slack + Rounding * (reach + slack);
+    query.Point[axis] = static_cast<float>(place[axis] - wide);
+    query.Point[axis + 3] = static_cast<float>(-place[axis] - wide);
+  }
+  return query;
+}
+
+//------------------------------------------------------------------------------
 inline unsigned RayTubeTree::Overlaps(const Node& node, const Query& query)
 {
-  // Each of the two subtractions and the division has at most one rounding; 4 ulp of the terms and
-  // of the quotient cover them.
-  constexpr float rounding = 4.0f * std::numeric_limits<float>::epsilon();
+  // With u the unit roundoff: the query's coordinate, of at most reach + padding, the start and
+  // their difference are rounded once each. Together they are off by at most 2 u (reach + padding)
+  // + 2 u |start|; the padding and the stored start are wider by 8 u of each, which is Rounding.
+  // The quotients are off by u each.
+  constexpr float quotients = 1.0f + static_cast<float>(Rounding);
   float low[Width] = { 0.0f, 0.0f, 0.0f, 0.0f };
   float high[Width];
   std::fill(high, high + Width, std::numeric_limits<float>::max());
-  const auto constrain = [&low, &high](int lane, float offset, float rate)
+  for (int side = 0; side < Sides; ++side)
   {
-    const float bound = -offset / rate;
-    const float raised = bound > low[lane] ? bound : low[lane];
-    const float lowered = bound < high[lane] ? bound : high[lane];
-    low[lane] = rate > 0.0f ? raised : low[lane];
-    high[lane] = rate > 0.0f ? high[lane] : lowered;
-  };
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const float p = query.Point[axis];
+    const float p = query.Point[side];
     for (int lane = 0; lane < Width; ++lane)
     {
-      const float start = node.StartHigh[axis][lane];
-      const float slack = query.Padding[axis] + rounding * std::fabs(start);
-      constrain(lane, (start - p) + slack, node.DirectionHigh[axis][lane]);
-    }
-    for (int lane = 0; lane < Width; ++lane)
-    {
-      const float start = node.NegatedStartLow[axis][lane];
-      const float slack = query.Padding[axis] + rounding * std::fabs(start);
-      constrain(lane, (start + p) + slack, node.NegatedDirectionLow[axis][lane]);
+      const float rate = node.Direction[side][lane];
+      const float bound = (p - node.Start[side][lane]) / rate;
+      const float raised = bound > low[lane] ? bound : low[lane];
+      const float lowered = bound < high[lane] ? bound : high[lane];
+      low[lane] = rate > 0.0f ? raised : low[lane];
+      high[lane] = rate > 0.0f ? high[lane] : lowered;
     }
   }
   unsigned hits = 0;
   for (int lane = 0; lane < Width; ++lane)
   {
-    hits |= static_cast<unsigned>(low[lane] <= high[lane] * (1.0f + rounding)) << lane;
+    hits |= static_cast<unsigned>(low[lane] <= high[lane] * quotients) << lane;
   }
   return hits;
 }
@@ -181,13 +194,7 @@ void RayTubeTree::Visit(const glm::dvec3& point, const glm::dvec3& padding, Visi
   {
     return;
   }
-  const glm::dvec3 scaled = point * this->Scale;
-  const double reach =
-    std::max({ std::fabs(scaled.x), std::fabs(scaled.y), std::fabs(scaled.z), 1.0 });
-  const glm::vec3 place(scaled);
-  const glm::vec3 slack(
-    padding * this->Scale + 4.0 * std::numeric_limits<float>::epsilon() * reach);
-  const Query query{ { place.x, place.y, place.z }, { slack.x, slack.y, slack.z } };
+  const Query query = this->MakeQuery(point, padding);
 
   struct Entry
   {
