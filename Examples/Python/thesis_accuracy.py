@@ -4,47 +4,27 @@
 medium at three depths (Fig. 3.4), rings of accuracy (Figs. 4.4 and 4.5), the facets of its disc and
 its worst case (Figs. 4.6 and 4.7), next to traced rays.
 
-usage: thesis_accuracy.py [--output DIR] [--size N]
+usage: thesis_accuracy.py [--output DIR] [--width N]
 """
 import argparse
 import os
 
 import meniscus
 import numpy
-from gallery import common
-from thesis_figures import AIR, BACKGROUND, DISC, GLASS, draw, make_bowl, make_disc
+from gallery import common, sheets
+from thesis_figures import AIR, DIFFERENT, DISC, GLASS, SAMPLES, draw, make_bowl, make_disc
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPlane, vtkSphere
+from vtkmodules.vtkCommonDataModel import vtkPlane, vtkSphere
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
 
 LOW_EYE = (0.0, 150.0, 0.0)
 BOTTOM = -780.0  # of the error volume
 SHALLOW = 5.0 * DISC  # radius of a slightly curved membrane
 LIGHT, DARK = (0.95, 0.85, 0.55), (0.30, 0.45, 0.75)
-GAP = 4  # pixels around a panel
-MEDIUM, ATTENUATION = (0.10, 0.30, 0.25), 1.0 / 400.0
-
-
-def to_image(rows):
-    """A picture of colours between 0 and 1, in rows upwards."""
-    image = vtkImageData()
-    image.SetDimensions(rows.shape[1], rows.shape[0], 1)
-    levels = numpy.round(255 * rows).astype(numpy.uint8).reshape(-1, 3)
-    image.GetPointData().SetScalars(numpy_to_vtk(numpy.ascontiguousarray(levels), deep=True))
-    return image
-
-
-def to_rows(image):
-    size = image.GetDimensions()
-    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(size[1], size[0], 3) / 255.0
-
-
-def put_together(rows):
-    """Rows of panels, from the top, with gaps between them."""
-    def pad(panel):
-        return numpy.pad(panel, ((GAP, GAP), (GAP, GAP), (0, 0)), constant_values=1.0)
-    panels = [to_image(pad(panel)) for row in rows for panel in row]
-    return common.stack(panels, len(rows[0]))
+BACKGROUND = (1.0, 1.0, 1.0)
+MEDIUM, ATTENUATION = (0.22, 0.50, 0.56), 1.0 / 400.0
+MEASURED = 320  # pixels along a side of the pictures whose pixels are counted
+ERRORS = 0.01, 10.0  # shown range
 
 
 def make_shallow_bowl():
@@ -53,7 +33,7 @@ def make_shallow_bowl():
 
 
 def take_slice(membrane, exact, eye, bounds, size):
-    """Errors of a slice of the error volume in the thesis's colours, as rows of pixels."""
+    """Errors of a slice of the error volume, as colours of their logarithms."""
     volume = meniscus.vtkRefractionErrorVolume()
     volume.AddMembraneData(membrane)
     volume.SetExactMembrane(exact)
@@ -66,16 +46,20 @@ def take_slice(membrane, exact, eye, bounds, size):
                                  for k in range(3)))
     volume.Update()
     arrays = volume.GetOutput().GetPointData()
-    colors = vtk_to_numpy(arrays.GetArray("ErrorColor"))[:, :3] / 255.0
     counts = vtk_to_numpy(arrays.GetArray("SampleState")) == 0
-    errors = vtk_to_numpy(arrays.GetArray("RefractionError"))[counts]
-    print(f"slice: {counts.sum()} samples, mean error {errors.mean():.3g}, largest "
-          f"{errors.max():.3g}")
-    colors = numpy.where(counts[:, None], colors, BACKGROUND)
+    errors = vtk_to_numpy(arrays.GetArray("RefractionError"))
+    print(f"slice: {counts.sum()} samples, mean error {errors[counts].mean():.3g}, largest "
+          f"{errors[counts].max():.3g}")
+    lowest, highest = numpy.log10(ERRORS)
+    level = (numpy.log10(numpy.clip(errors, *ERRORS)) - lowest) / (highest - lowest)
+    palette = numpy.array(common.VIRIDIS)
+    colors = numpy.stack([numpy.interp(level, numpy.linspace(0.0, 1.0, len(palette)), channel)
+                          for channel in palette.T], axis=-1)
+    colors[~counts] = common.PAPER[1]
     return colors.reshape(size, size, 3)
 
 
-def draw_rings(size):
+def draw_rings(width):
     """Left: the bottom of the error volume of a flat disc, the eye 150 above its middle. Middle and
     right: the bottom and an upright slice for a slightly curved one, the eye aside by 400."""
     plane = vtkPlane()
@@ -85,10 +69,16 @@ def draw_rings(size):
     sphere.SetRadius(SHALLOW)
     flat = make_disc(5, lambda r: 0.0, lambda r: 0.0)
     aside = (400.0, 450.0, 0.0)
-    return put_together([[
-        take_slice(flat, plane, LOW_EYE, (-400, 400, -800, -800, -400, 400), size),
-        take_slice(make_shallow_bowl(), sphere, aside, (-780, 20, -800, -800, -400, 400), size),
-        take_slice(make_shallow_bowl(), sphere, aside, (-780, 20, -800, 0, 7, 7), size)]])
+    size = sheets.get_panel_width(width, 3)
+    # Aside by 1, because a sample behind an edge of facets has several images.
+    slices = ((flat, plane, LOW_EYE, (-400, 400, -800, -800, -399, 401)),
+              (make_shallow_bowl(), sphere, aside, (-780, 20, -800, -800, -400, 400)),
+              (make_shallow_bowl(), sphere, aside, (-780, 20, -800, 0, 7, 7)))
+    panels = [sheets.shrink(take_slice(*place, 2 * size), 2) for place in slices]
+    sheet = sheets.make_sheet(panels, ("Flat disc, 800 below it", "Curved disc, 800 below it",
+                                       "Curved disc, upright slice"), 3)
+    marks = [(power / 3.0, f"{10.0**(power - 2):g}") for power in range(4)]
+    return sheets.add_scale(sheet, [(0.5, 0.4, common.VIRIDIS, marks, "error in units of length")])
 
 
 def is_light(x, z, squares):
@@ -196,45 +186,55 @@ def make_board_actor(data):
 def mark(here, there):
     """Pixels that differ, red, before a pale picture; and their number."""
     differs = numpy.abs(here - there).max(axis=2) > 8.0 / 255.0
-    return numpy.where(differs[..., None], (0.9, 0.15, 0.1), 0.75 + 0.25 * there), differs.sum()
+    return numpy.where(differs[..., None], DIFFERENT, 0.75 + 0.25 * there), differs.sum()
 
 
-def draw_worst(size):
+def draw_facets(membrane, size):
+    facets = common.vtkExtractEdges()
+    facets.SetInputData(membrane)
+    facets.Update()
+    renderer = common.make_renderer((BACKGROUND, BACKGROUND))
+    edges = common.make_actor(facets.GetOutput(), common.INK)
+    edges.GetProperty().LightingOff()
+    edges.GetProperty().SetLineWidth(2.5)
+    renderer.AddActor(edges)
+    common.look_from(renderer, (0.0, 600.0, 0.0), (0.0, 0.0, 0.0), (0, 0, -1), 28.0)
+    return sheets.to_rows(common.take(renderer, (size, size)))
+
+
+def draw_worst(width):
     """The facets of the flat disc; its worst case, an object at the bottom and at the far side seen
     from an eye low above the middle, by flat facets and traced; pixels that differ."""
     flat = make_disc(5, lambda r: 0.0, lambda r: 0.0)
-    facets = common.vtkExtractEdges()
-    facets.SetInputData(flat)
-    facets.Update()
-    renderer = common.make_renderer()
-    edges = common.make_actor(facets.GetOutput(), (1.0, 0.85, 0.2))
-    edges.GetProperty().LightingOff()
-    edges.GetProperty().SetLineWidth(2.0)
-    renderer.AddActor(edges)
-    common.look_from(renderer, (0.0, 600.0, 0.0), (0.0, 0.0, 0.0), (0, 0, -1), 29.0)
-    panels = [to_rows(common.take(renderer, (size, size)))]
-
     bounds, squares = (-240.0, 240.0, -400.0, 80.0), 40.0
     view = View(LOW_EYE, (0.0, 0.0, -37.0), (0.0, 0.0, -1.0), 34.0)
     virtual = refract(make_board(bounds, BOTTOM, squares), flat, LOW_EYE, True)
-    renderer = common.make_renderer((BACKGROUND, BACKGROUND))
-    renderer.AddActor(make_board_actor(virtual.GetOutput()))
-    view.apply(renderer)
-    drawn = to_rows(draw(renderer, (size, size)))
-    covered, shown, colors, _ = trace(view, size, 0.0, BOTTOM, bounds, squares)
-    traced = numpy.where(shown[..., None], colors, BACKGROUND)
-    marked, number = mark(drawn, traced)
-    print(f"worst case: {number} of {shown.sum()} pixels differ")
-    return put_together([panels + [drawn, traced, marked]])
+
+    def see(size):
+        renderer = common.make_renderer((BACKGROUND, BACKGROUND))
+        renderer.AddActor(make_board_actor(virtual.GetOutput()))
+        view.apply(renderer)
+        _, shown, colors, _ = trace(view, size, 0.0, BOTTOM, bounds, squares)
+        return (sheets.to_rows(draw(renderer, (size, size))),
+                numpy.where(shown[..., None], colors, BACKGROUND), shown.sum())
+
+    drawn, traced, covered = see(MEASURED)
+    number = mark(drawn, traced)[1]
+    print(f"worst case: {number} of {covered} pixels differ")
+    size = sheets.get_panel_width(width, 4)
+    marked = mark(*see(size)[:2])[0]
+    drawn, traced = (sheets.shrink(rows, SAMPLES) for rows in see(SAMPLES * size)[:2])
+    return sheets.make_sheet([draw_facets(flat, size), drawn, traced, marked],
+                             ("The disc's facets", "Flat facets", "Traced", "Difference"), 4)
 
 
-def draw_attenuation(size):
+def draw_attenuation(width):
     """A board below the tip of a bowl in an attenuating medium, at depths of 700, 400 and 100: the
     pass above, traced below."""
-    drawn, traced = [], []
     bowl, bounds, squares = make_bowl(7), (-150.0, 150.0, -150.0, 150.0), 30.0
     view = View((0.0, 450.0, 260.0), (0.0, 20.0, 0.0), (0.0, 1.0, 0.0), 38.0)
-    for depth in (700.0, 400.0, 100.0):
+
+    def see(depth, size):
         filter_ = refract(make_board(bounds, -depth, squares), bowl, view.eye, False)
         renderer = common.make_renderer((BACKGROUND, BACKGROUND))
         membrane = common.make_actor(bowl)
@@ -247,24 +247,35 @@ def draw_attenuation(size):
         scene.SetMediumColor(*MEDIUM)
         scene.InfiniteMediumOn()
         renderer.SetPass(scene)
-        drawn.append(to_rows(draw(renderer, (size, size))))
         covered, shown, colors, way = trace(view, size, 1.05 * DISC, -depth, bounds, squares)
         passing = numpy.exp(-ATTENUATION * way)[..., None]
         seen = numpy.where(shown[..., None], passing * colors + (1.0 - passing) * MEDIUM, MEDIUM)
-        traced.append(numpy.where(covered[..., None], seen, BACKGROUND))
-        number = mark(drawn[-1], traced[-1])[1]
-        print(f"depth {depth:g}: {number} of {covered.sum()} pixels differ")
-    return put_together([drawn, traced])
+        return (sheets.to_rows(draw(renderer, (size, size))),
+                numpy.where(covered[..., None], seen, BACKGROUND), covered.sum())
+
+    size = sheets.get_panel_width(width, 3)
+    panels, titles = [[], []], [[], []]
+    for depth in (700.0, 400.0, 100.0):
+        drawn, traced, covered = see(depth, MEASURED)
+        number = mark(drawn, traced)[1]
+        print(f"depth {depth:g}: {number} of {covered} pixels differ")
+        for row, (title, rows) in enumerate(zip(("refraction pass", "traced"),
+                                                see(depth, SAMPLES * size))):
+            pixels = sheets.shrink(rows, SAMPLES)
+            panels[row].append(pixels[size // 8:])
+            titles[row].append(f"{depth:g} below, {title}")
+    return sheets.make_sheet(panels[0] + panels[1], titles[0] + titles[1], 3)
 
 
 def main():
     parser = argparse.ArgumentParser(description="Figures of the thesis about accuracy")
     parser.add_argument("--output", default=".", help="existing folder for the pictures")
-    parser.add_argument("--size", type=int, default=320, help="height of a panel in pixels")
+    parser.add_argument("--width", type=int, default=1280, help="of the pictures, in pixels")
     options = parser.parse_args()
     for name, make in (("thesis-rings", draw_rings), ("thesis-worst-case", draw_worst),
                        ("thesis-attenuation", draw_attenuation)):
-        common.write(make(options.size), os.path.join(options.output, name + ".png"))
+        common.write(sheets.to_image(make(options.width)),
+                     os.path.join(options.output, name + ".png"))
 
 
 if __name__ == "__main__":

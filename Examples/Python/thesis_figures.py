@@ -5,17 +5,17 @@ resolutions next to a ray-traced picture (Figs. 4.9 and 4.10), the cells of dive
 membranes (Figs. 3.1 and 4.8), all images of one point (Fig. 3.2), and an error volume (Fig. 4.2)
 with its angles at the eye.
 
-usage: thesis_figures.py [--output DIR] [--size N]
+usage: thesis_figures.py [--output DIR] [--width N]
 """
 import argparse
 import math
 import os
 
 import meniscus
-from gallery import common
-from vtkmodules.util.vtkConstants import VTK_UNSIGNED_CHAR
+import numpy
+from gallery import common, sheets
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints, vtkUnsignedCharArray
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData, vtkSphere
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkSphere
 from vtkmodules.vtkFiltersCore import vtkGlyph3D, vtkTubeFilter
 from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkSphereSource
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
@@ -26,7 +26,11 @@ SPHERE = 1.05 * DISC
 EYE = (0.0, 450.0, 0.0)
 TRIANGLE_HEIGHT, TRIANGLE_RADIUS = -300.0, 430.0
 HALF_TANGENT = 0.4
-BACKGROUND, FILL, DIFFERENT = (0.09, 0.12, 0.17), (0.55, 0.75, 0.95), (255, 90, 60)
+FILL, DIFFERENT, WATER = (0.30, 0.50, 0.74), (0.87, 0.20, 0.10), (0.45, 0.72, 0.85)
+SAMPLES = 4  # along a side of a pixel
+ACROSS = 78  # samples of the error volume along a side; an even number leaves out its axis
+PATHS = 400.0, 1200.0  # shown range of optical paths
+MEASURED = 256  # pixels along a side of the pictures whose pixels are counted
 
 
 def make_disc(rings, height, slope):
@@ -143,90 +147,74 @@ def draw(renderer, size):
 
 
 def draw_virtual(data, size):
+    """Which of size x size pixels show the data, in rows upwards."""
     renderer = vtkRenderer()
-    renderer.SetBackground(*BACKGROUND)
-    actor = common.make_actor(data, FILL)
+    actor = common.make_actor(data)
     actor.GetProperty().LightingOff()
     renderer.AddActor(actor)
     common.look_from(renderer, EYE, (0, 0, 0), (0, 0, -1),
                      2.0 * math.degrees(math.atan(HALF_TANGENT)))
     renderer.GetActiveCamera().SetClippingRange(100, 2000)
-    return draw(renderer, (size, size))
-
-
-def is_seen(x, z):
-    """Traces the ray from the eye along (x, -1, z) through the sphere itself to the triangle."""
-    length = math.sqrt(x * x + 1.0 + z * z)
-    ray = (x / length, -1.0 / length, z / length)
-    to_center = EYE[1] - SPHERE
-    middle = to_center * ray[1]
-    root = middle * middle - to_center**2 + SPHERE**2
-    if root < 0.0:
-        return False
-    far = -middle + math.sqrt(root)
-    hit = [e + far * r for e, r in zip(EYE, ray)]
-    if math.hypot(hit[0], hit[2]) > DISC:
-        return False
-    outwards = (hit[0] / SPHERE, (hit[1] - SPHERE) / SPHERE, hit[2] / SPHERE)
-    # Snell's law: the part across the normal shrinks by the ratio of the indices.
-    along = sum(r * o for r, o in zip(ray, outwards))
-    across = [AIR / GLASS * (r - along * o) for r, o in zip(ray, outwards)]
-    depth = math.sqrt(1.0 - sum(a * a for a in across))
-    behind = [a + depth * o for a, o in zip(across, outwards)]
-    distance = (TRIANGLE_HEIGHT - hit[1]) / behind[1]
-    place = hit[0] + distance * behind[0], hit[2] + distance * behind[2]
-    corners = get_corners()
-    sides = [(q[0] - p[0]) * (place[1] - p[1]) - (q[1] - p[1]) * (place[0] - p[0])
-             for p, q in zip(corners, corners[1:] + corners[:1])]
-    return min(sides) >= 0.0 or max(sides) <= 0.0
+    return sheets.to_rows(draw(renderer, (size, size)))[..., 2] > 0.5
 
 
 def trace(size):
-    image = vtkImageData()
-    image.SetDimensions(size, size, 1)
-    image.AllocateScalars(VTK_UNSIGNED_CHAR, 3)
-    scalars = image.GetPointData().GetScalars()
-    for row in range(size):
-        for column in range(size):
-            x = HALF_TANGENT * (2.0 * (column + 0.5) / size - 1.0)
-            z = -HALF_TANGENT * (2.0 * (row + 0.5) / size - 1.0)
-            color = FILL if is_seen(x, z) else BACKGROUND
-            scalars.SetTuple3(row * size + column, *(round(255 * c) for c in color))
-    return image
+    """Traces the rays of the pixels through the sphere itself to the triangle."""
+    at = HALF_TANGENT * (2.0 * (numpy.arange(size) + 0.5) / size - 1.0)
+    x, z = numpy.meshgrid(at, -at)
+    ray = numpy.stack([x, -numpy.ones_like(x), z])
+    ray /= numpy.linalg.norm(ray, axis=0)
+    eye = numpy.array(EYE)[:, None, None]
+    center = numpy.array((0.0, SPHERE, 0.0))[:, None, None]
+    middle = (EYE[1] - SPHERE) * ray[1]
+    root = middle**2 - (EYE[1] - SPHERE)**2 + SPHERE**2
+    hit = eye + (-middle + numpy.sqrt(numpy.maximum(root, 0.0))) * ray
+    outwards = (hit - center) / SPHERE
+    # Snell's law: the part across the normal shrinks by the ratio of the indices.
+    along = (ray * outwards).sum(axis=0)
+    across = AIR / GLASS * (ray - along * outwards)
+    behind = across + numpy.sqrt(1.0 - (across**2).sum(axis=0)) * outwards
+    distance = (TRIANGLE_HEIGHT - hit[1]) / behind[1]
+    place = [hit[k] + distance * behind[k] for k in (0, 2)]
+    corners = get_corners()
+    sides = numpy.array([(q[0] - p[0]) * (place[1] - p[1]) - (q[1] - p[1]) * (place[0] - p[0])
+                         for p, q in zip(corners, corners[1:] + corners[:1])])
+    inside = (sides.min(axis=0) >= 0.0) | (sides.max(axis=0) <= 0.0)
+    return inside & (root >= 0.0) & (numpy.hypot(hit[0], hit[2]) <= DISC)
 
 
-def get_covered(image):
-    scalars = image.GetPointData().GetScalars()
-    return [scalars.GetComponent(i, 2) > 128 for i in range(scalars.GetNumberOfTuples())]
+def paint(covered, truth):
+    """The middle of a picture, with samples that differ from the truth in another colour."""
+    size = covered.shape[0]
+    share = size // SAMPLES // 12
+    colors = numpy.where((covered & truth)[..., None], FILL, common.PAPER[1])
+    colors[covered != truth] = DIFFERENT
+    pixels = sheets.shrink(colors, SAMPLES)
+    return pixels[:10 * share, share:11 * share]
 
 
-def mark(image, truth):
-    """Colours the pixels that differ from the truth, and returns their number."""
-    scalars, number = image.GetPointData().GetScalars(), 0
-    for i, (here, there) in enumerate(zip(get_covered(image), truth)):
-        if here != there:
-            scalars.SetTuple3(i, *DIFFERENT)
-            number += 1
-    return number
-
-
-def draw_resolutions(size):
+def draw_resolutions(width):
     """Top: flat facets and 2, 3, 5 and 8 vertices per side. Bottom: 22 vertices, 8 vertices and
-    more facets, the plain triangle with all images, and traced rays. Pixels that differ from those
-    are marked."""
+    more facets, the plain triangle with all images, and traced rays. What differs from those is
+    marked."""
     coarse, fine = make_bowl(5), make_fine_bowl()
-    traced = trace(size)
-    truth = get_covered(traced)
-    panels = []
+    size = sheets.get_panel_width(width, 4) // 10 * 12
+    counted, truth = trace(MEASURED), trace(SAMPLES * size)
+    panels, titles = [], []
     for side, membrane, all_images in ((2, coarse, False), (3, coarse, False), (5, coarse, False),
                                        (8, coarse, False), (22, coarse, False), (8, fine, False),
                                        (2, coarse, True)):
-        image = draw_virtual(refract(make_triangle(side), membrane, all_images), size)
-        number = mark(image, truth)
+        data = refract(make_triangle(side), membrane, all_images)
+        number = (draw_virtual(data, MEASURED) != counted).sum()
         print(f"{side} vertices per side, {membrane.GetNumberOfCells()} facets, "
-              f"{'ALL_IMAGES' if all_images else 'FLAT_FACETS'}: {number} of {sum(truth)} pixels")
-        panels.append(image)
-    return common.stack(panels + [traced], 4)
+              f"{'ALL_IMAGES' if all_images else 'FLAT_FACETS'}: {number} of {counted.sum()} "
+              "pixels")
+        panels.append(paint(draw_virtual(data, SAMPLES * size), truth))
+        titles.append(f"{side} vertices a side, {membrane.GetNumberOfCells():,} facets\n" +
+                      ("all images: " if all_images else "") + f"{number:,} pixels differ")
+    panels.append(paint(truth, truth))
+    titles.append("traced")
+    return sheets.make_sheet(panels, titles, 4)
 
 
 def add_cells(renderer, membrane, exterior, interior, length):
@@ -246,46 +234,45 @@ def add_cells(renderer, membrane, exterior, interior, length):
     edges.SetInputData(grid)
     rays = vtkTubeFilter()
     rays.SetInputConnection(edges.GetOutputPort())
-    rays.SetRadius(2.2)
-    rays.SetNumberOfSides(8)
+    rays.SetRadius(1.8)
+    rays.SetNumberOfSides(12)
     rays.Update()
     actor = common.make_actor(rays.GetOutput())
     mapper = actor.GetMapper()
     mapper.ScalarVisibilityOn()
     mapper.SetScalarModeToUsePointFieldData()
     mapper.SelectColorArray("OpticalPath")
-    mapper.SetLookupTable(common.make_colors(common.VIRIDIS[2:], *paths.GetRange()))
+    mapper.SetLookupTable(common.make_colors(common.VIRIDIS[:7], *PATHS))
     mapper.UseLookupTableScalarRangeOn()
     renderer.AddActor(actor)
-    surface = common.make_actor(membrane, (1.0, 0.85, 0.2))
+    print(f"optical paths {paths.GetRange()[0]:.3g} to {paths.GetRange()[1]:.3g}")
+    surface = common.make_actor(membrane, WATER)
     surface.GetProperty().SetOpacity(0.6)
     renderer.AddActor(surface)
-    sight, points = vtkCellArray(), vtkPoints()
-    eye = points.InsertNextPoint(EYE)
-    for i in range(membrane.GetNumberOfPoints()):
-        sight.InsertNextCell(2, (eye, points.InsertNextPoint(membrane.GetPoint(i))))
-    lines = vtkPolyData()
-    lines.SetPoints(points)
-    lines.SetLines(sight)
-    white = common.make_actor(lines, (0.9, 0.9, 0.9))
-    white.GetProperty().SetOpacity(0.6)
-    white.GetProperty().SetLineWidth(2.0)
-    renderer.AddActor(white)
+    count = membrane.GetNumberOfPoints()
+    renderer.AddActor(make_rays([EYE] * count, [membrane.GetPoint(i) for i in range(count)],
+                                (0.72, 0.74, 0.78), 0.8))
+    renderer.AddActor(make_ball(EYE, 12.0, common.INK))
 
 
-def draw_cells(size):
+def draw_cells(width):
     """Cells of a membrane that spreads the view, and of one that focuses it."""
+    size = sheets.get_panel_width(width, 2)
     panels = []
     for rise in (0.9, -0.9):
         membrane = make_disc(3, lambda r: rise * r * r / (2.0 * DISC), lambda r: rise * r / DISC)
-        renderer = common.make_renderer()
+        renderer = common.make_renderer(common.PAPER)
         add_cells(renderer, membrane, AIR, GLASS, 420.0)
         common.add_lights(renderer, ((-0.5, 0.8, 1.0), (1.0, 1.0, 1.0), 1.0),
-                          ((0.7, 0.0, 0.7), (1.0, 1.0, 1.0), 0.6))
-        common.look_from(renderer, (350.0, 420.0, 1900.0), (0.0, -15.0, 0.0), (0, 1, 0), 29.0)
+                          ((0.7, 0.0, 0.7), (1.0, 1.0, 1.0), 0.5))
+        common.look_from(renderer, (350.0, 420.0, 1900.0), (0.0, -5.0, 0.0), (0, 1, 0), 29.0)
         renderer.ResetCameraClippingRange()
-        panels.append(common.take(renderer, (2 * size, 2 * size)))
-    return common.stack(panels, len(panels))
+        panels.append(sheets.to_rows(common.take(renderer, (size, size))))
+    sheet = sheets.make_sheet(
+        panels, ("A hollow surface of glass spreads the view", "a round one focuses it"), 2)
+    marks = [((path - PATHS[0]) / (PATHS[1] - PATHS[0]), f"{path:.0f}") for path in PATHS]
+    return sheets.add_scale(
+        sheet, [(0.5, 0.3, common.VIRIDIS[:7], marks, "optical path from the eye")])
 
 
 def make_waves(cells, side, amplitude, wave_number):
@@ -317,6 +304,16 @@ def make_waves(cells, side, amplitude, wave_number):
     return waves
 
 
+def make_ball(center, radius, color):
+    ball = vtkSphereSource()
+    ball.SetCenter(center)
+    ball.SetRadius(radius)
+    ball.SetThetaResolution(24)
+    ball.SetPhiResolution(16)
+    ball.Update()
+    return common.make_actor(ball.GetOutput(), color)
+
+
 def make_rays(starts, ends, color, radius):
     points, lines = vtkPoints(), vtkCellArray()
     for pair in zip(starts, ends):
@@ -334,7 +331,7 @@ def make_rays(starts, ends, color, radius):
     return actor
 
 
-def draw_convergence(size):
+def draw_convergence(width):
     """All images of one point below short waves: sight rays, refracted rays, virtual vertices."""
     eye, place = (20.0, 300.0, 10.0), (0.0, -150.0, 0.0)
     membrane = make_waves(128, 200.0, 4.0, 0.09 * math.pi)
@@ -354,27 +351,30 @@ def draw_convergence(size):
     count = images.GetNumberOfPoints()
     print(f"{count} virtual vertices of one point")
     sights = [images.GetPointData().GetArray("SightPoint").GetTuple3(i) for i in range(count)]
-    renderer = common.make_renderer()
-    # The thesis's colours: sight rays light pink, refracted rays magenta, vertices white.
-    renderer.AddActor(make_rays([eye] * count, sights, (1.0, 0.75, 0.8), 0.25))
-    renderer.AddActor(make_rays(sights, [place] * count, (1.0, 0.2, 1.0), 0.4))
-    dot = vtkSphereSource()
-    dot.SetRadius(1.6)
-    dots = vtkGlyph3D()
-    dots.SetSourceConnection(dot.GetOutputPort())
-    dots.SetInputData(images)
-    dots.ScalingOff()
-    dots.Update()
-    white = common.make_actor(dots.GetOutput())
-    white.GetMapper().ScalarVisibilityOff()
-    renderer.AddActor(white)
-    surface = common.make_actor(membrane, (1.0, 0.85, 0.2))
-    surface.GetProperty().SetOpacity(0.5)
-    renderer.AddActor(surface)
-    common.add_lights(renderer, ((-0.5, 0.8, 1.0), (1.0, 1.0, 1.0), 1.0))
-    common.look_from(renderer, (250.0, 130.0, 420.0), (0.0, -35.0, 0.0), (0, 1, 0), 32.0)
-    renderer.ResetCameraClippingRange()
-    return common.take(renderer, (3 * size, 2 * size))
+    size = sheets.get_panel_width(width, 2)
+    panels = []
+    for position, focus, angle, scale in (
+            ((420.0, 230.0, 720.0), (0.0, 72.0, 0.0), 35.0, 1.0),
+            ((140.0, -40.0, 240.0), (0.0, -122.0, 0.0), 15.0, 0.3)):
+        renderer = common.make_renderer(common.PAPER)
+        renderer.AddActor(make_rays([eye] * count, sights, (0.95, 0.62, 0.35), 0.4))
+        renderer.AddActor(make_rays(sights, [place] * count, (0.80, 0.10, 0.55), 0.4 * scale))
+        for i in range(count):
+            renderer.AddActor(make_ball(images.GetPoint(i), 1.7 * scale**0.5, FILL))
+        renderer.AddActor(make_ball(place, 3.0 * scale**0.5, common.INK))
+        renderer.AddActor(make_ball(eye, 4.0, common.INK))
+        surface = common.make_actor(membrane, WATER)
+        surface.GetProperty().SetOpacity(0.45)
+        surface.GetProperty().SetSpecular(0.4)
+        surface.GetProperty().SetSpecularPower(30.0)
+        renderer.AddActor(surface)
+        common.add_lights(renderer, ((-0.5, 0.8, 1.0), (1.0, 1.0, 1.0), 1.0))
+        common.look_from(renderer, position, focus, (0, 1, 0), angle)
+        renderer.ResetCameraClippingRange()
+        panels.append(sheets.to_rows(common.take(renderer, (size, size))))
+    return sheets.make_sheet(panels, (
+        "From one eye through waves to one point, black",
+        f"the point, and its {count} virtual vertices, blue"), 2)
 
 
 def make_errors():
@@ -391,6 +391,7 @@ def make_errors():
     volume.SetEyePosition(EYE)
     volume.SetInteriorIndexOfRefraction(GLASS)
     volume.SetModelBounds(-390, 390, DISC - 790, DISC - 10, -390, 390)
+    volume.SetSampleDimensions(ACROSS, ACROSS, ACROSS)
     volume.AngularErrorsOn()
     volume.Update()
     print(f"hemisphere: mean error {volume.GetMeanError():.3g}")
@@ -401,9 +402,13 @@ def make_errors():
     colors.SetNumberOfComponents(3)
     colors.SetName("ErrorColor")
     pixels.SetName("Pixels")
+    step = output.GetSpacing()[0]
     for i in range(output.GetNumberOfPoints()):
-        if arrays.GetArray("SampleState").GetValue(i) == 0 and output.GetPoint(i)[2] < 0.0:
-            points.InsertNextPoint(output.GetPoint(i))
+        point = output.GetPoint(i)
+        # Blocks about samples next to the facets would come through them.
+        is_clear = math.dist(point, exact.GetCenter()) > DISC + step
+        if arrays.GetArray("SampleState").GetValue(i) == 0 and point[2] < 0.0 and is_clear:
+            points.InsertNextPoint(point)
             colors.InsertNextTuple(i, arrays.GetArray("ErrorColor"))
             angle = math.radians(arrays.GetArray("AngularError").GetValue(i))
             pixels.InsertNextValue(256.0 * math.tan(angle) / HALF_TANGENT)
@@ -413,19 +418,19 @@ def make_errors():
     return volume.GetInputDataObject(0, 0), centers
 
 
-def draw_errors(size):
+def draw_errors(width):
     """An error volume cut open: the thesis's colours, and angles at the eye as pixels."""
     membrane, centers = make_errors()
     numbers = [centers.GetPointData().GetArray("Pixels").GetValue(i)
                for i in range(centers.GetNumberOfPoints())]
     print(f"pixels: mean {sum(numbers) / len(numbers):.3g}, largest {max(numbers):.3g}")
-    look = common.make_colors(common.INFERNO[1:], 0.0, 10.0)
+    size = sheets.get_panel_width(width, 2)
     panels = []
     for name in ("ErrorColor", "Pixels"):
         centers.GetPointData().SetActiveScalars(name)
         cube = vtkCubeSource()
         for axis in "XYZ":
-            getattr(cube, f"Set{axis}Length")(20.0)
+            getattr(cube, f"Set{axis}Length")(780.0 / (ACROSS - 1))
         blocks = vtkGlyph3D()
         blocks.SetInputData(centers)
         blocks.SetSourceConnection(cube.GetOutputPort())
@@ -435,31 +440,41 @@ def draw_errors(size):
         actor = common.make_actor(blocks.GetOutput())
         actor.GetMapper().ScalarVisibilityOn()
         if name == "Pixels":
-            actor.GetMapper().SetLookupTable(look)
+            actor.GetMapper().SetLookupTable(common.make_colors(common.INFERNO[1:], 0.0, 10.0))
             actor.GetMapper().UseLookupTableScalarRangeOn()
         actor.GetProperty().SetAmbient(0.6)
-        actor.GetProperty().SetDiffuse(0.7)
-        renderer = common.make_renderer()
+        actor.GetProperty().SetDiffuse(0.5)
+        renderer = common.make_renderer(common.PAPER)
         renderer.AddActor(actor)
-        surface = common.make_actor(membrane, (1.0, 1.0, 0.0))
-        surface.GetProperty().SetRepresentationToWireframe()
+        surface = common.make_actor(membrane, WATER)
+        surface.GetProperty().SetOpacity(0.8)
+        surface.GetProperty().EdgeVisibilityOn()
+        surface.GetProperty().SetEdgeColor(0.2, 0.35, 0.45)
         renderer.AddActor(surface)
         common.add_lights(renderer, ((-0.5, 0.8, 1.0), (1.0, 1.0, 1.0), 1.1))
-        common.look_from(renderer, (500.0, 500.0, 2000.0), (0.0, -230.0, -150.0), (0, 1, 0), 26.0)
+        common.look_from(renderer, (500.0, 500.0, 2000.0), (0.0, -230.0, -150.0), (0, 1, 0), 24.0)
         renderer.ResetCameraClippingRange()
-        bar = common.make_bar(look, "pixels") if name == "Pixels" else None
-        panels.append(common.take(renderer, (2 * size, 2 * size), bar))
-    return common.stack(panels, len(panels))
+        panels.append(sheets.to_rows(common.take(renderer, (size, size))))
+    sheet = sheets.make_sheet(panels, ("ErrorColor: units of length",
+                                       "AngularError: pixels of a picture of 512 rows"), 2)
+    shades = numpy.linspace(0.31, 1.0, 100)[:, None]
+    bands = numpy.concatenate([shades * color for color in numpy.eye(3)[[1, 2, 0]]])
+    return sheets.add_scale(sheet, [
+        (0.22, 0.28, bands,
+         ((0.0, "0"), (0.33, "1"), (0.67, "10"), (1.0, "100")), "units"),
+        (0.72, 0.28, common.INFERNO[1:],
+         ((0.0, "0"), (0.5, "5"), (1.0, "10 and more")), "pixels")])
 
 
 def main():
     parser = argparse.ArgumentParser(description="Figures of the thesis")
     parser.add_argument("--output", default=".", help="existing folder for the pictures")
-    parser.add_argument("--size", type=int, default=256, help="height of a panel in pixels")
+    parser.add_argument("--width", type=int, default=1280, help="of the pictures, in pixels")
     options = parser.parse_args()
     for name, make in (("thesis-resolution", draw_resolutions), ("membrane-cells", draw_cells),
                        ("error-volume", draw_errors), ("zone-of-convergence", draw_convergence)):
-        common.write(make(options.size), os.path.join(options.output, name + ".png"))
+        common.write(sheets.to_image(make(options.width)),
+                     os.path.join(options.output, name + ".png"))
 
 
 if __name__ == "__main__":

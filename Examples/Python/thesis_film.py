@@ -4,23 +4,21 @@
 moves through the zone of convergence behind a convex membrane, with the first image of each vertex,
 with all images, and traced. Popping is the largest change of a pixel from one frame to the next.
 
-usage: thesis_film.py [--output DIR] [--size N] [--frames N]
+usage: thesis_film.py [--output DIR] [--width N] [--size N] [--frames N]
 """
 import argparse
 import os
 
 import meniscus
 import numpy
-from gallery import common
+from gallery import common, sheets
 from thesis_figures import (
-    AIR, BACKGROUND, DISC, EYE, FILL, GLASS, HALF_TANGENT, SPHERE, TRIANGLE_HEIGHT, TRIANGLE_RADIUS,
+    AIR, DISC, EYE, FILL, GLASS, HALF_TANGENT, SAMPLES, SPHERE, TRIANGLE_HEIGHT, TRIANGLE_RADIUS,
     draw_virtual, make_disc, make_triangle)
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
 
 RADIUS = 60.0  # of the triangle
-SAMPLES = 4  # along a side of a pixel
 SHOWN = 6  # frames of the contact sheet
+DOME = (0.87, 0.92, 0.95)
 # Places of the triangle's middle in the first and the last frame.
 FILMS = {"depth": ((0.0, -150.0, 0.0), (0.0, -500.0, 0.0)),
          "aside": ((-60.0, -300.0, 15.0), (60.0, -300.0, 15.0))}
@@ -61,8 +59,8 @@ def refract(triangle, membrane, model, all_images):
     return refraction.GetOutput()
 
 
-def trace(middle, size):
-    """Samples that show the triangle, in rows upwards, by rays through the sphere itself."""
+def hit_dome(size):
+    """Rays of the samples, the places where they meet the sphere, and whether the cap is there."""
     at = HALF_TANGENT * (2.0 * (numpy.arange(size) + 0.5) / size - 1.0)
     x, z = numpy.meshgrid(at, -at)
     ray = numpy.stack([x, -numpy.ones_like(x), z])
@@ -73,7 +71,12 @@ def trace(middle, size):
     hits = root > 0.0
     near = -along - numpy.sqrt(numpy.where(hits, root, 0.0))
     hit = numpy.array(EYE)[:, None, None] + near * ray
-    hits &= numpy.hypot(hit[0], hit[2]) <= DISC
+    return ray, hit, hits & (numpy.hypot(hit[0], hit[2]) <= DISC)
+
+
+def trace(middle, size):
+    """Samples that show the triangle, in rows upwards, by rays through the sphere itself."""
+    ray, hit, hits = hit_dome(size)
     normal = (hit - numpy.array((0.0, -SPHERE, 0.0))[:, None, None]) / SPHERE
     cosine = -(ray * normal).sum(axis=0)
     ratio = AIR / GLASS
@@ -90,26 +93,6 @@ def trace(middle, size):
     return seen
 
 
-def get_samples(image, size):
-    return vtk_to_numpy(image.GetPointData().GetScalars())[:, 2].reshape(size, size) > 128
-
-
-def to_pixels(samples):
-    """The covered part of each pixel."""
-    size = samples.shape[0] // SAMPLES
-    return samples.reshape(size, SAMPLES, size, SAMPLES).mean(axis=(1, 3))
-
-
-def to_image(pixels):
-    colors = (numpy.array(BACKGROUND) +
-              pixels[..., None] * (numpy.array(FILL) - BACKGROUND))
-    image = vtkImageData()
-    image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
-    rows = numpy.ascontiguousarray(numpy.round(255 * colors).astype(numpy.uint8).reshape(-1, 3))
-    image.GetPointData().SetScalars(numpy_to_vtk(rows, deep=True))
-    return image
-
-
 def make_film(film, size, shares):
     """Frames of the three ways as covered parts of pixels, and the samples that differ from the
     traced ones in the worst frame. `shares` are the places of the frames on the way, 0 to 1."""
@@ -122,12 +105,12 @@ def make_film(film, size, shares):
     for share in shares:
         middle = get_place(film, share)
         truth = trace(middle, SAMPLES * size)
-        films["traced"].append(to_pixels(truth))
+        films["traced"].append(sheets.shrink(truth, SAMPLES))
         for name, (side, membrane, kind, all_images) in ways.items():
             data = refract(place(make_triangle(side), middle), membrane, kind, all_images)
-            samples = get_samples(draw_virtual(data, SAMPLES * size), SAMPLES * size)
+            samples = draw_virtual(data, SAMPLES * size)
             worst[name] = max(worst[name], int((samples != truth).sum()))
-            films[name].append(to_pixels(samples))
+            films[name].append(sheets.shrink(samples, SAMPLES))
     return films, worst
 
 
@@ -137,11 +120,31 @@ def get_popping(frames):
     return max(c.max() for c in changes), max(c.sum() for c in changes)
 
 
+def draw_sheet(film, width):
+    """Some frames, from left to right: with first images, with all images, and traced."""
+    panel = sheets.get_panel_width(width, SHOWN)
+    size = panel * 4 // 3
+    edge = (size - panel) // 2
+    shares = numpy.linspace(0.0, 1.0, SHOWN)
+    films, _ = make_film(film, size, shares)
+    dome = sheets.shrink(hit_dome(SAMPLES * size)[2], SAMPLES)[..., None]
+    empty = 1.0 + dome * (numpy.array(DOME) - 1.0)
+    panels, titles = [], []
+    for name in ("first image", "all images", "traced"):
+        for share, pixels in zip(shares, films[name]):
+            colors = empty + pixels[..., None] * (FILL - empty)
+            panels.append(colors[edge:edge + panel, edge:edge + panel])
+            x, height, _ = get_place(film, share)
+            titles.append(f"{name}\n" + (f"{-height:g} deep" if film == "depth" else f"at {x:g}"))
+    return sheets.make_sheet(panels, titles, SHOWN)
+
+
 def main():
     parser = argparse.ArgumentParser(description="A triangle in a zone of convergence")
     parser.add_argument("--output", default=".", help="existing folder for the pictures")
-    parser.add_argument("--size", type=int, default=96, help="height of a frame in pixels")
-    parser.add_argument("--frames", type=int, default=360, help="number of frames")
+    parser.add_argument("--width", type=int, default=1280, help="of the pictures, in pixels")
+    parser.add_argument("--size", type=int, default=48, help="height of a measured frame in pixels")
+    parser.add_argument("--frames", type=int, default=360, help="number of measured frames")
     options = parser.parse_args()
     for film in FILMS:
         films, worst = make_film(
@@ -151,10 +154,7 @@ def main():
             print(f"{film}, {name}: largest change of a pixel {change:.2f}, of a frame "
                   f"{area:.1f} pixels" +
                   (f", {worst[name]} samples wrong in the worst frame" if name in worst else ""))
-        shown = numpy.linspace(0, options.frames - 1, SHOWN).round().astype(int)
-        pictures = [to_image(films[name][i])
-                    for name in ("first image", "all images", "traced") for i in shown]
-        common.write(common.stack(pictures, SHOWN),
+        common.write(sheets.to_image(draw_sheet(film, options.width)),
                      os.path.join(options.output, f"thesis-film-{film}.png"))
 
 
