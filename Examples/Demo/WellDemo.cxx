@@ -31,7 +31,7 @@ namespace
 
 constexpr int WellPictureSize = 512;
 constexpr int WaterCells = 96;
-constexpr unsigned char Background[3] = { 24, 30, 40 };
+constexpr unsigned char Background[3] = { 235, 239, 243 };
 
 const DemoView View = { { 0.25, -1.5, 3.6 }, { 0.0, 0.02, -0.45 }, { 0.0, 0.0, 1.0 }, 34.0 };
 

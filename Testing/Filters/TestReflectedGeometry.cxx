@@ -95,7 +95,7 @@ std::vector<MirrorScene> GetMirrorScenes()
     MakeMirrorScene("concave, beyond its focus", dish, { 30.0, 400.0, 20.0 }, 0.12, 120.0, 40.0) };
 }
 
-void ExpectSameView(ComparisonSheet& sheet, int row, const char* name, const PixelCamera& camera,
+void ExpectSameView(ComparisonSheet& sheet, int column, const char* name, const PixelCamera& camera,
   const BoardScene& object, vtkPolyData* mirror, const RayTracer& rays)
 {
   const auto data = object.MakeData();
@@ -108,7 +108,7 @@ void ExpectSameView(ComparisonSheet& sheet, int row, const char* name, const Pix
   ExpectQuiet(filter);
   const PlacePicture drawn = DrawPlaces(filter->GetOutput(), camera);
   const PlacePicture traced = TraceRays(camera, rays, MakeMeshTracer(data));
-  const PlaceComparison compared = AddComparison(sheet, row, name, camera, drawn, traced,
+  const PlaceComparison compared = AddComparison(sheet, column, name, camera, drawn, traced,
     [&object](const glm::dvec3& place) { return object.GetColour(place); });
   EXPECT_GT(compared.Covered, camera.GetPixels() * camera.GetPixels() / 20) << name;
   EXPECT_LE(compared.Coverage + compared.Place, compared.Covered / 1000) << name;
@@ -137,7 +137,7 @@ RayTracer MakeBallRays(const glm::dvec3& eye, double radius)
 TEST(MirrorComparison, PlaneBallWavesAndDishAgreeWithTracedRays)
 {
   const std::vector<MirrorScene> scenes = GetMirrorScenes();
-  ComparisonSheet sheet(static_cast<int>(scenes.size()) + 1, 3, 256);
+  ComparisonSheet sheet = MakeSceneSheet(scenes.size() + 1, 256);
   for (std::size_t i = 0; i < scenes.size(); ++i)
   {
     const MirrorScene& scene = scenes[i];

@@ -27,7 +27,7 @@ constexpr double Index = 1.333;
 constexpr double HalfTangent = 0.3;
 constexpr glm::dvec3 Eye{ 60.0, 260.0, -130.0 };
 constexpr glm::dvec3 Target{ 0.0, -20.0, 0.0 };
-constexpr glm::dvec3 Background{ 0.25, 0.3, 0.35 };
+constexpr glm::dvec3 Background{ 235.0 / 255.0, 239.0 / 255.0, 243.0 / 255.0 };
 constexpr double Far = 1000.0;
 // A lamp in the water, between the objects.
 constexpr glm::dvec3 LampPlace{ 0.0, -30.0, 15.0 };

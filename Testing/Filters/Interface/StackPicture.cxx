@@ -61,7 +61,7 @@ RayTracer MakeExactRays(const std::vector<reference::ExactSurface>& surfaces, co
 }
 
 //------------------------------------------------------------------------------
-void ExpectSameView(ComparisonSheet& sheet, int row, const StackPicture& picture,
+void ExpectSameView(ComparisonSheet& sheet, int column, const StackPicture& picture,
   vtkPolyData* object, const PlacePicture& traced, const PlaceColour& colour)
 {
   const auto filter = picture.MakeFilter(object, true);
@@ -69,7 +69,7 @@ void ExpectSameView(ComparisonSheet& sheet, int row, const StackPicture& picture
   EXPECT_EQ(messages->Errors, 0) << messages->Text;
   const PlacePicture drawn = DrawPlaces(filter->GetOutput(), picture.Camera);
   const PlaceComparison compared =
-    AddComparison(sheet, row, picture.Name, picture.Camera, drawn, traced, colour);
+    AddComparison(sheet, column, picture.Name, picture.Camera, drawn, traced, colour);
   const int pixels = picture.Camera.GetPixels();
   EXPECT_GT(compared.Covered, pixels * pixels / 20) << picture.Name;
   EXPECT_LE(compared.Coverage + compared.Place, picture.Differing * compared.Covered)

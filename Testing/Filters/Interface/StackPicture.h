@@ -58,10 +58,10 @@ RayTracer MakeExactRays(const std::vector<reference::ExactSurface>& surfaces, co
   const Outline& outline);
 
 /**
- * A row of the sheet: all images of an object, and traced rays. A pixel differs if it shows another
- * place, by more than half a pixel, or is covered in one of the two pictures only.
+ * A column of the sheet: all images of an object, and traced rays. A pixel differs if it shows
+ * another place, by more than half a pixel, or is covered in one of the two pictures only.
  */
-void ExpectSameView(ComparisonSheet& sheet, int row, const StackPicture& picture,
+void ExpectSameView(ComparisonSheet& sheet, int column, const StackPicture& picture,
   vtkPolyData* object, const PlacePicture& traced, const PlaceColour& colour);
 
 }

@@ -260,7 +260,8 @@ InverseScene MakeExactScene(const StackPicture& view, const std::vector<ExactSur
 // the error is that of their patches.
 TEST(InverseComparison, DepthImagesBecomeTruePositions)
 {
-  ComparisonSheet sheet(3, 4, Side);
+  ComparisonSheet sheet({ "pane", "dome port", "waves" },
+    { "view", "positions found, from above", "traced, from above", "error" }, Side);
   const glm::dvec3 up(0.0, 1.0, 0.0);
   const PixelCamera above({ 60.0, 130.0, -170.0 }, { 0.0, -60.0, 0.0 }, 0.27, Pixels);
   const InverseScene pane =

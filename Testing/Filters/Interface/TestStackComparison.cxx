@@ -26,16 +26,16 @@ BoardScene MakeBoardAndRing(double y, double size)
       0.22 * size, 0.07 * size } };
 }
 
-void ExpectScene(ComparisonSheet& sheet, int row, const StackPicture& view, const BoardScene& scene,
-  const RayTracer& rays)
+void ExpectScene(ComparisonSheet& sheet, int column, const StackPicture& view,
+  const BoardScene& scene, const RayTracer& rays)
 {
   const auto object = scene.MakeData();
-  ExpectSameView(sheet, row, view, object, TraceRays(view.Camera, rays, MakeMeshTracer(object)),
+  ExpectSameView(sheet, column, view, object, TraceRays(view.Camera, rays, MakeMeshTracer(object)),
     [&scene](const glm::dvec3& place) { return scene.GetColour(place); });
 }
 
 //------------------------------------------------------------------------------
-void ExpectPane(ComparisonSheet& sheet, int row)
+void ExpectPane(ComparisonSheet& sheet, int column)
 {
   constexpr double side = 400.0;
   const StackPicture view{ "air, glass, water",
@@ -43,12 +43,12 @@ void ExpectPane(ComparisonSheet& sheet, int row)
     { { 60.0, 130.0, -190.0 }, { 0.0, -62.0, 0.0 }, 0.30, Pixels }, 0.005, 5e-5 };
   const std::vector<ExactSurface> exact{ { 1.0, Glass, glm::dvec3(0.0), 0.0, Up },
     { Glass, Water, { 0.0, -20.0, 0.0 }, 0.0, Up } };
-  ExpectScene(sheet, row, view, MakeBoardAndRing(-100.0, 120.0),
+  ExpectScene(sheet, column, view, MakeBoardAndRing(-100.0, 120.0),
     MakeExactRays(exact, view.Camera.GetEye(), MakeSquareOutline(side)));
 }
 
 // Spheres around `centre`, with air inside and water outside.
-void ExpectPort(ComparisonSheet& sheet, int row, const std::string& name, const glm::dvec3& eye,
+void ExpectPort(ComparisonSheet& sheet, int column, const std::string& name, const glm::dvec3& eye,
   const glm::dvec3& centre)
 {
   const StackPicture view{ name,
@@ -60,14 +60,14 @@ void ExpectPort(ComparisonSheet& sheet, int row, const std::string& name, const 
   if (eye == centre)
   {
     // No ray is refracted.
-    ExpectScene(sheet, row, view, scene,
+    ExpectScene(sheet, column, view, scene,
       [&eye](const glm::dvec3& direction) {
         return LastLeg{ eye, direction };
       });
     return;
   }
   ExpectScene(
-    sheet, row, view, scene, MakeExactRays(exact, eye, [](const glm::dvec3&) { return true; }));
+    sheet, column, view, scene, MakeExactRays(exact, eye, [](const glm::dvec3&) { return true; }));
 }
 
 //------------------------------------------------------------------------------
@@ -94,7 +94,7 @@ glm::dvec3 GetIrisColour(const glm::dvec3& place)
     (0.55 + 0.45 * fibre);
 }
 
-void ExpectEye(ComparisonSheet& sheet, int row)
+void ExpectEye(ComparisonSheet& sheet, int column)
 {
   const StackPicture view{ "Navarro's eye", { MakeCornea(Anterior, 50), MakeCornea(Posterior, 50) },
     { { 1.0, Anterior.Behind }, { Anterior.Behind, Posterior.Behind } },
@@ -103,13 +103,13 @@ void ExpectEye(ComparisonSheet& sheet, int row)
   const auto rays =
     MakeExactRays({ MakeExactCornea(Anterior, 1.0), MakeExactCornea(Posterior, Anterior.Behind) },
       view.Camera.GetEye(), MakeRoundOutline(CorneaRadius));
-  ExpectSameView(sheet, row, view, object,
+  ExpectSameView(sheet, column, view, object,
     TraceRays(view.Camera, rays, MakeSquareTracer(-Pupil, 12.0)), GetIrisColour);
 }
 
 //------------------------------------------------------------------------------
 // Waves on water, and waves on the glass below it.
-void ExpectWaves(ComparisonSheet& sheet, int row)
+void ExpectWaves(ComparisonSheet& sheet, int column)
 {
   constexpr double lower = -40.0;
   constexpr int cells = 128;
@@ -121,7 +121,7 @@ void ExpectWaves(ComparisonSheet& sheet, int row)
     { { 1.0, Water }, { Water, 1.7 } }, { { 20.0, 300.0, 10.0 }, glm::dvec3(0.0), 0.25, Pixels },
     0.0025 };
   const glm::dvec3 eye = view.Camera.GetEye();
-  ExpectScene(sheet, row, view, MakeBoardAndRing(-170.0, 160.0),
+  ExpectScene(sheet, column, view, MakeBoardAndRing(-170.0, 160.0),
     [=](const glm::dvec3& direction) -> std::optional<LastLeg>
     {
       const glm::dvec3 down(0.0, lower, 0.0);
@@ -148,7 +148,7 @@ void ExpectWaves(ComparisonSheet& sheet, int row)
 //------------------------------------------------------------------------------
 TEST(StackComparison, PanesPortsCorneasAndWaves)
 {
-  ComparisonSheet sheet(5, 3, Pixels / 2);
+  ComparisonSheet sheet = MakeSceneSheet(5, Pixels / 2);
   ExpectPane(sheet, 0);
   const glm::dvec3 eye(50.0, 70.0, -120.0);
   ExpectPort(sheet, 1, "dome port, eye in its centre", eye, eye);

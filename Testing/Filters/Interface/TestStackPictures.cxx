@@ -88,7 +88,7 @@ std::vector<LensScene> GetScenes()
 TEST(StackPictures, BallsAndLensesAgreeWithTracedRays)
 {
   const std::vector<LensScene> scenes = GetScenes();
-  ComparisonSheet sheet(static_cast<int>(scenes.size()), 3, Pixels / 2);
+  ComparisonSheet sheet = MakeSceneSheet(scenes.size(), Pixels / 2);
   for (std::size_t i = 0; i < scenes.size(); ++i)
   {
     const LensScene& scene = scenes[i];

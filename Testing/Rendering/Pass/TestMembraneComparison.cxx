@@ -31,6 +31,9 @@ struct Column
 constexpr std::array<Column, 2> Columns{ { { "native", vtkTetrahedraRayCastMapper::NATIVE, 2e-5 },
   { "OpenGL", vtkTetrahedraRayCastMapper::OPENGL, 1e-4 } } };
 
+// Titles of the sheet's columns.
+const std::vector<std::string> Titles{ "native", "traced rays", "error, native", "error, OpenGL" };
+
 using Colors = std::vector<std::array<double, 4>>;
 
 Colors Trace(RayCastScene& scene, const MembraneStack& stack)
@@ -125,7 +128,7 @@ TEST(MembraneComparison, PlaneAndDomeBesideRefractedRays)
   constexpr double range[2] = { -1.0, 1.0 };
   const Grid grid = MakeBlock(6, WavyField(3.0));
   const auto property = MakeProperty(FunctionKind::Smooth, range, 3.4);
-  ComparisonSheet sheet(2, 4, Size);
+  ComparisonSheet sheet({ "plane", "dome" }, Titles, Size);
   ExpectRow(sheet, 0, "plane", grid, property, { MakePlaneCase(1.3, 3.0, 3) });
   ExpectRow(sheet, 1, "dome", grid, property, { MakeDomeCase(1.6, 3.0, 2.0, 40) });
   sheet.Write(MENISCUS_TEMPORARY_DIR "/membrane-comparison.png");
@@ -138,7 +141,7 @@ TEST(MembraneComparison, LayersPaneAndBallBesideRefractedRays)
   const auto plane = [](double level, double half, double before, double behind)
   { return Between(MakePlaneCase(level, half, 3), before, behind); };
   const MembraneCase ball = Between(MakeBallCase({ 0.67, 1.6, 1.17 }, 0.6, 64), 1.0, 1.5);
-  ComparisonSheet sheet(3, 4, Size);
+  ComparisonSheet sheet({ "air, glass, water", "pane", "ball" }, Titles, Size);
   ExpectRow(sheet, 0, "air, glass, water", grid, property,
     { plane(0.6, 9.0, 1.0, 1.5), plane(-0.1, 9.0, 1.5, 1.333) });
   // Rays beside the pane are straight.

@@ -28,7 +28,7 @@ struct PoolDifference
 void Save(const std::string& name, const meniscus::test::ByteImage& drawn, const PoolPicture& truth)
 {
   constexpr int size = PoolScene::Pixels;
-  ComparisonSheet sheet(1, 3, size);
+  ComparisonSheet sheet({ "" }, { "vtkRefractionPass", "traced rays", "8 x difference" }, size);
   for (const auto& [y, x] : Product(size, size))
   {
     const glm::dvec3& exact = truth.Colors[static_cast<std::size_t>(y) * size + x];

@@ -586,7 +586,9 @@ TEST_P(TetrahedraRayCastShadowRays, MatchesBruteForce)
   std::unique_ptr<meniscus::test::ComparisonSheet> sheet;
   if (wanted)
   {
-    sheet = std::make_unique<meniscus::test::ComparisonSheet>(1, 3, GetParam().Size / step);
+    const std::vector<std::string> titles{ "drawn", "shadow rays", "10 x difference" };
+    sheet = std::make_unique<meniscus::test::ComparisonSheet>(
+      std::vector<std::string>{ mesh }, titles, GetParam().Size / step);
   }
   const ShadowErrors errors = CompareToShadowRays(scene, grid, property, step, sheet.get());
   if (sheet)
