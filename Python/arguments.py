@@ -8,7 +8,7 @@ import os
 import sys
 import warnings
 
-from vtkmodules.vtkCommonDataModel import vtkDataObject
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataSet
 
 _LONGEST_VALUE = 60  # characters of a list that a message repeats; of longer ones it has the type
 
@@ -124,5 +124,6 @@ def check_plotter(value):
 
 def check_dataset(argument, value):
     """A dataset of VTK or PyVista, or a filter whose output is one."""
-    if not isinstance(value, vtkDataObject) and not hasattr(value, "GetOutputPort"):
+    if not isinstance(value, (vtkDataSet, vtkCompositeDataSet)) and not hasattr(
+            value, "GetOutputPort"):
         refuse(argument, "a dataset", value)

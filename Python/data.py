@@ -72,22 +72,24 @@ def check_component(name, count, component):
 def run(algorithm):
     """Updates a filter. An error that it reports is a ValueError, a warning a RuntimeWarning."""
     messages = {"ErrorEvent": [], "WarningEvent": []}
+    faults = []
 
     @calldata_type(VTK_STRING)
-    def note(_caller, event, message):
+    def note(caller, event, message):
         lines = [line.strip() for line in message.splitlines() if line.strip()]
-        messages[event].append(lines[-1].split("): ", 1)[-1] if lines else "unknown")
+        (messages[event] if caller is algorithm else faults).append(
+            lines[-1].split("): ", 1)[-1] if lines else "unknown")
 
-    # The pipeline repeats that the filter has failed.
-    ignored = algorithm.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
+    # The pipeline says why it does not run the filter, or repeats that the filter has failed.
+    watch = algorithm.GetExecutive().AddObserver("ErrorEvent", note)
     observers = [algorithm.AddObserver(event, note) for event in messages]
     try:
         algorithm.Update()
     finally:
         for observer in observers:
             algorithm.RemoveObserver(observer)
-        algorithm.GetExecutive().RemoveObserver(ignored)
-    if messages["ErrorEvent"]:
-        raise ValueError(messages["ErrorEvent"][0])
+        algorithm.GetExecutive().RemoveObserver(watch)
+    if messages["ErrorEvent"] or faults:
+        raise ValueError((messages["ErrorEvent"] or faults)[0])
     for message in messages["WarningEvent"]:
         warn(message, RuntimeWarning)

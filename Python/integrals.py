@@ -41,29 +41,29 @@ def _set_bins(rays, bins):
             setter(number, value)
 
 
-def _find_array(mesh, scalars):
-    """The first array of a name, or the first active scalars, of the points or cells of a mesh;
-    None if there is none."""
+def _find_arrays(mesh, scalars):
+    """The arrays of a name, or the active scalars, of the points or else of the cells of the data
+    sets of a mesh."""
     if hasattr(mesh, "GetOutputPort"):
         mesh.Update()
         mesh = mesh.GetOutputDataObject(0)
+    found = []
     for leaf in leaves_of(mesh):
         for attributes in (leaf.GetPointData(), leaf.GetCellData()):
             array = attributes.GetArray(scalars) if scalars else attributes.GetScalars()
             if array is not None:
-                return array
-    return None
+                found.append(array)
+                break
+    return found
 
 
-def _choose_component(rays, array, component):
-    """Sets the component of an array; one of an array with several is a ValueError if none or
-    another is chosen."""
-    if array is None:
-        return
-    check_component(array.GetName(), array.GetNumberOfComponents(), component)
-    if component is None:
-        return
-    rays.SetArrayComponent(-1 if component == "magnitude" else component)
+def _choose_component(rays, arrays, component):
+    """Sets the component of arrays; one of arrays with several is a ValueError if none or another
+    is chosen."""
+    for array in arrays:
+        check_component(array.GetName(), array.GetNumberOfComponents(), component)
+    if arrays and component is not None:
+        rays.SetArrayComponent(-1 if component == "magnitude" else component)
 
 
 def ray_integral(mesh, arrays="Integral", *, scalars=None, component=None, size=(256, 256),
@@ -111,7 +111,7 @@ def ray_integral(mesh, arrays="Integral", *, scalars=None, component=None, size=
         rays.SetInputArrayToProcess(
             0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS_THEN_CELLS, scalars)
     if not _OWN_COMPONENTS & set(properties) and set(names) - _GEOMETRIC:
-        _choose_component(rays, _find_array(mesh, scalars), component)
+        _choose_component(rays, _find_arrays(mesh, scalars), component)
     rays.SetImageSize(*size)
     if camera is not None:
         rays.SetCamera(camera)

@@ -26,6 +26,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <sstream>
 #include <string>
@@ -479,7 +480,13 @@ bool vtkTetrahedraRayIntegral::Measure(Request& request, vtkDataObject* input, v
   output->SetSpacing(place.Spacing);
   output->SetDirectionMatrix(place.Direction);
   arrays.AddTo(output);
-  this->Tell({ "", arrays.WarnOfPrecision(internals.Input.GetDistribution()) });
+  const meniscus::ScalarDistribution& scalars = internals.Input.GetDistribution();
+  this->Tell({ "", arrays.WarnOfPrecision(scalars) });
+  const bool hasScalars = !request.Choice.HasBinArrays && !scalars.IsEmpty();
+  const double largest =
+    hasScalars ? std::max(std::abs(scalars.GetLowest()), std::abs(scalars.GetHighest())) : 0.0;
+  const bool isEmitting = request.Choice.HasBinArrays && internals.Bins.IsEmitting();
+  this->Tell({ "", arrays.WarnOfBins(isEmitting, 2.0 * mesh.GetRadius() * largest) });
   return true;
 }
 

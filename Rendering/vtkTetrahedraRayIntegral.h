@@ -43,14 +43,15 @@
  * **Energy bins.** A bin has the intensity I0 behind the mesh. The image has I0 exp(-integral of
  * mu) plus the emission e of the mesh, attenuated on its way to the viewer. mu and e are
  * BinAttenuation and BinEmission times the scalar, or the components of AttenuationArrayName and
- * EmissionArrayName.
+ * EmissionArrayName. A warning tells of a bin whose rays are all absorbed, or amplified by a
+ * negative attenuation, and of numbers beyond the range of the output.
  *
  * **Errors.** Without a usable input, array, frame, property or interface an error is reported and
  * the output is empty: no cells; a missing array, one of the wrong length or without the chosen
  * component; an image size below 1 or an image that exceeds the computer's memory (found before
  * anything is allocated); a rectangle without area, with axes that are not perpendicular or with
- * numbers that are not finite; a camera with a singular matrix; a negative attenuation; no array
- * switched on.
+ * numbers that are not finite; a camera with a singular matrix; a negative attenuation in an array;
+ * no array switched on.
  *
  * Tables of the mesh, of the scalar and of the surfaces are kept until their values change: another
  * frame costs the cast only (the statistic "NumberOfMeshBuilds"). Rays are cast in parallel by

@@ -78,19 +78,21 @@ def radiograph(
     """Radiograph of a mesh: the intensity of the rays behind it, I0 exp(-attenuation * integral).
 
     scalars: name of an array of points or cells, such as a density; default: the active scalars.
-    attenuation: coefficient per unit of the scalar and of length; default: 1. Several coefficients
-        are energies of X-rays.
+    attenuation: coefficient per unit of the scalar and of length, at least 0; default: 1. Several
+        coefficients are energies of X-rays.
     intensity: I0, in front of the mesh, in any unit; default: 1. One number, or one per energy.
     mesh, component, size, direction, up, camera, properties: as in meniscus.integral(). A camera
         is the X-ray source and its view the detector.
 
     Returns numpy.float32 of the shape (height, width), or (height, width, energies) for several
-    coefficients, with rows from below. Raises ValueError for input that cannot be used.
+    coefficients, with rows from below. Raises ValueError for input that cannot be used. A
+    RuntimeWarning tells of coefficients so large that hardly any ray passes the mesh, and of
+    negative scalars, which amplify rays.
     """
     several = _is_list(attenuation)
     coefficients: Any = attenuation if several else [attenuation]
     intensities: Any = intensity if _is_list(intensity) else [intensity] * len(coefficients)
-    coefficients = [take_number("attenuation", each) for each in coefficients]
+    coefficients = [take_number("attenuation", each, least=0.0) for each in coefficients]
     intensities = [take_number("intensity", each, least=0.0) for each in intensities]
     if not len(coefficients) or len(intensities) != len(coefficients):
         raise ValueError("There must be one attenuation coefficient or more, and as many "

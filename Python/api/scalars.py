@@ -5,6 +5,7 @@
 import numpy
 import pyvista
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 
 from ..arguments import check_name, check_values, refuse, take_range, warn
@@ -23,6 +24,16 @@ def copy_with(mesh, name, in_points, leaves, arrays):
     copies = [with_array(leaf, name, in_points, array) for leaf, array in zip(leaves, arrays)]
     copy = replace_leaves(mesh, leaves, copies)
     return copy if isinstance(mesh, vtkCompositeDataSet) else pyvista.wrap(copy)
+
+
+def without_mask(values):
+    """Values of which those that are masked, if it is an array of numpy.ma, are not numbers."""
+    if not numpy.ma.isMaskedArray(values):
+        return values
+    if not numpy.ma.is_masked(values):
+        return values.data
+    kind = values.dtype if values.dtype.kind == "f" else float
+    return values.astype(kind).filled(numpy.nan)
 
 
 class Scalars:
@@ -62,7 +73,7 @@ class Scalars:
         """An array that is given is added to a shallow copy under PyVista's name for it."""
         if scalars is not None and not isinstance(scalars, str):
             mesh = mesh.copy(deep=False)
-            mesh["Data"] = scalars
+            mesh["Data"] = without_mask(scalars)
             scalars = "Data"
         scalars = scalars or mesh.active_scalars_name
         if scalars is None and not mesh.array_names:
@@ -116,8 +127,19 @@ class Scalars:
         return self.in_points and all(array.GetNumberOfComponents() == 4 and vtk_to_numpy(
             array).dtype == numpy.uint8 for array in self.arrays)
 
+    def are_truths(self):
+        """Whether all values are true or false, which PyVista keeps as bytes."""
+        if any(array.GetDataType() != VTK_UNSIGNED_CHAR for array in self.arrays):
+            return False
+        return all((leaf.point_data if self.in_points else leaf.cell_data)[self.name].dtype == bool
+                   for leaf in map(pyvista.wrap, self.leaves))
+
     def _choose_component(self, component):
-        count = self.arrays[0].GetNumberOfComponents()
+        counts = sorted({array.GetNumberOfComponents() for array in self.arrays})
+        if len(counts) > 1:
+            raise ValueError("The array '%s' has %s components, depending on the block" % (
+                self.name, " or ".join(map(str, counts))))
+        count = counts[0]
         try:
             check_component(self.name, count, component)
         except ValueError as error:
@@ -155,6 +177,9 @@ class Scalars:
                 raise ValueError("The colours '%s' are of the type %s; they must be uint8, from 0 "
                                  "to 255, or floating-point numbers from 0 to 1" % (
                                      self.name, values.dtype))
+        if len({values.dtype == numpy.uint8 for values in colors}) > 1:
+            raise ValueError("The colours '%s' are uint8 in some blocks and floating-point numbers "
+                             "in others" % self.name)
         self.limits = (0.0, 255.0 if colors[0].dtype == numpy.uint8 else 1.0)
         self.component = None
         self._mix([values if values.shape[1] == 4 else numpy.column_stack(

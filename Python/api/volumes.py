@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 import numpy
 import pyvista
 from vtkmodules.vtkCommonCore import VTK_SCALE_LOG10, vtkDataArray, vtkPoints
-from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import (
+    VTK_TETRA, vtkUniformGrid, vtkUniformGridAMR, vtkUnstructuredGrid)
 
 from ..arguments import (
     check_count, check_finite, check_numbers, check_plotter, refuse, take_number, take_range, warn)
@@ -22,7 +23,7 @@ from ..names import BACKENDS, ISOSURFACE_OPACITY, MATERIAL, SCATTERED_SHARE, SHA
 from ..viewer.cells import drawn_cells_of, drawn_leaves_of
 from .functions import check_color_map, follow_table, make_opaque, take_opacity
 from .mapper import make_mapper
-from .scalars import Scalars
+from .scalars import Scalars, without_mask
 from .surfaces import connect
 
 if TYPE_CHECKING:
@@ -131,6 +132,8 @@ def _choose_limits(arguments, scalars):
             arguments["clim"] = scalars.get_positive_range()
         elif scalars.limits is not None:
             arguments["clim"] = tuple(map(float, scalars.limits))
+        elif scalars.are_truths():  # bytes are from 0 to 255
+            arguments["clim"] = 0.0, 1.0
 
 
 def _choose_look(arguments, blending, light, shadows):
@@ -230,10 +233,12 @@ def _check_isovalues(isovalues):
     check_finite("isovalues", isovalues)
 
 
-def _set_isovalues(look, isovalues, limits):
-    """isovalues: values, or the number of values at equal distances inside limits."""
+def _set_isovalues(look, isovalues, limits, is_logarithmic):
+    """isovalues: values, or the number of values at equal distances inside limits, of their
+    logarithms if is_logarithmic."""
     if not hasattr(isovalues, "__len__"):
-        isovalues = numpy.linspace(*limits, isovalues + 2)[1:-1]
+        space = numpy.geomspace if is_logarithmic and limits[0] > 0.0 else numpy.linspace
+        isovalues = space(*limits, isovalues + 2)[1:-1]
     contours = look.GetIsoSurfaceValues()
     contours.SetNumberOfContours(len(isovalues))
     for index, value in enumerate(isovalues):
@@ -266,6 +271,24 @@ def _warn_of_emptiness(look, scalars, is_surface):
         warn("Nothing of '%s' can be seen: %s, from %g to %g" % (scalars.name, reason, low, high))
 
 
+def _take_array(values):
+    """An array with three dimensions in a type that VTK has; masked values are not numbers."""
+    if values.dtype.kind not in "biuf" or values.ndim != 3:
+        raise ValueError("An array is a volume if it has three dimensions and real numbers, not "
+                         "%d dimensions of %s" % (values.ndim, values.dtype))
+    values = without_mask(values)
+    if values.dtype.kind == "f" and values.dtype.itemsize not in (4, 8):
+        return values.astype(numpy.float32 if values.dtype.itemsize < 4 else float)
+    return values
+
+
+def _as_image(grid):
+    """A vtkUniformGrid, which PyVista does not know, as an image."""
+    image = pyvista.ImageData()
+    image.ShallowCopy(grid)
+    return image
+
+
 def _wrap(mesh, resolution):
     """A mesh of any library as PyVista's. resolution: distances of the values of an array with
     three dimensions, which plotter.add_volume() takes as well."""
@@ -273,6 +296,12 @@ def _wrap(mesh, resolution):
         if not isinstance(mesh, numpy.ndarray):
             raise ValueError("resolution is the spacing of an array of values; a mesh has its own")
         check_numbers("resolution", resolution, 3)
+    if isinstance(mesh, numpy.ndarray):
+        mesh = _take_array(mesh)
+    elif isinstance(mesh, vtkUniformGrid):
+        mesh = _as_image(mesh)
+    elif isinstance(mesh, vtkUniformGridAMR):
+        mesh = pyvista.MultiBlock([_as_image(leaf) for leaf in leaves_of(mesh)])
     try:
         wrapped = pyvista.wrap(mesh)
     except (NotImplementedError, TypeError):
@@ -326,12 +355,12 @@ def add_to(
 ) -> Any:
     """Adds a mesh to a plotter as a volume and returns the pyvista.Volume.
 
-    mesh: a dataset with cells that have a volume, of any type. The blocks of a pyvista.MultiBlock
-        are one mesh with one range of values; blocks without the array or without volume are left
-        out.
+    mesh: a dataset with cells that have a volume, of any type. The blocks of a pyvista.MultiBlock,
+        or of an AMR grid of VTK, are one mesh with one range of values; blocks without the array or
+        without volume are left out.
     plotter: pyvista.Plotter.
     scalars: name of an array of points or cells, or the values themselves, one per point or cell;
-        default: the active scalars.
+        default: the active scalars. Cells with masked values are not drawn.
     component: number of a component from 0, or "magnitude"; needed for an array with several.
     rgba: draws an array of points with 3 or 4 components as colours, and the fourth as opacity:
         uint8 from 0 to 255, or floating-point numbers from 0 to 1. Default: whether there are 4
@@ -340,8 +369,8 @@ def add_to(
         are those of scalars. opacity_component: as component. opacity_clim: range over which
         `opacity` runs, (low, high); default: the range of the array's values.
     blending: "composite" (default), "maximum", "minimum", "average", "additive", "isosurface".
-    isovalues: values of isosurfaces, or the number of values at equal distances inside clim, for
-        blending="isosurface", which they select; default: 3.
+    isovalues: values of isosurfaces, or the number of values at equal distances inside clim (with
+        log_scale, of their logarithms), for blending="isosurface", which they select; default: 3.
     light: whether the volume is lit, with one material for all. Default: isosurfaces only.
         PyVista's shade, ambient, diffuse, specular and specular_power override it.
     shadows: whether the volume casts shadows into itself, and scatters light; True, or the share of
@@ -429,7 +458,8 @@ def add_to(
         look.SetIndependentComponents(False)
         _follow_mesh(plotter.renderer, mapper, mesh, choose)
     if blending == "isosurface":
-        _set_isovalues(look, 3 if isovalues is None else isovalues, mapper.scalar_range)
+        _set_isovalues(look, 3 if isovalues is None else isovalues, mapper.scalar_range,
+                       table.GetScale() == VTK_SCALE_LOG10)
     if not chosen.is_mixed:
         _warn_of_emptiness(look, chosen, blending == "isosurface")
     if not chosen.has_colors:

@@ -231,6 +231,20 @@ def make_scene(options, report=lambda line: None):
     return scene
 
 
+def _make_reported_scene(options):
+    """The scene of the options; VTK's warnings about it are printed."""
+    with collecting_reports() as reports:
+        scene = make_scene(options, lambda line: print(line, flush=True))
+        errors, warnings = reports()
+    _print_warnings(errors + warnings)
+    return scene
+
+
+def _print_warnings(warnings, of=""):
+    for warning in dict.fromkeys(warnings):
+        print(f"meniscus: warning: {of}{warning}", file=sys.stderr)
+
+
 def _has_display():
     return bool(os.environ.get("DISPLAY")) or not sys.platform.startswith("linux")
 
@@ -245,8 +259,7 @@ def _compare(scene, options):
             print(format_row(found), flush=True)
             pairs.append((found, picture))
         errors, warnings = reports()
-    for message in dict.fromkeys(errors + warnings):
-        print(f"meniscus: warning: VTK: {message}", file=sys.stderr)
+    _print_warnings(errors + warnings, "VTK: ")
     if options.output:
         write_picture(grab_picture(make_panels(pairs, offscreen=True)), options.output)
     elif _has_display():
@@ -275,8 +288,7 @@ def _show(scene, options):
     elif options.output:
         picture, warnings = draw_picture(scene, options.size, options.transparent)
         write_picture(picture, options.output)
-        for warning in warnings:
-            print(f"meniscus: warning: {warning}", file=sys.stderr)
+        _print_warnings(warnings)
     elif options.web:
         from .web import serve
         serve(scene, options.host, options.port, watch)
@@ -292,7 +304,7 @@ def main(arguments=None):
     try:
         options = parser.parse(arguments)
         check(options)
-        _show(make_scene(options, lambda line: print(line, flush=True)), options)
+        _show(_make_reported_scene(options), options)
     except ReadingError as error:
         print(f"meniscus: {error}", file=sys.stderr)
         return 1

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Isosurface areas of a scalar, and an opacity function that makes rare values visible."""
+import math
 from functools import reduce
 
 import numpy
@@ -24,6 +25,21 @@ FLOOR = 0.02
 _EVEN = 0.1
 # Mean optical depth of a ray through the middle of a cube of the mesh's size.
 OPTICAL_DEPTH = 1.5
+# It is reached after as many mean lengths of rays in the mesh at most: in a plate or a shell, whose
+# size says nothing about its thickness. In a cube, a ball or a rod of four cubes it is the size.
+_MEAN_LENGTHS = 3.0
+
+
+def find_reach(bounds, volume):
+    """Length after which a ray in a mesh is to be OPTICAL_DEPTH deep, as a share of the diagonal of
+    its bounds: the width of a cube with this diagonal, or less where the mesh is thin."""
+    x, y, z = (float(bounds[2 * axis + 1]) - bounds[2 * axis] for axis in range(3))
+    diagonal = math.hypot(x, y, z)
+    surface = 2.0 * (x * y + y * z + z * x)
+    if not (0.0 < surface < math.inf and volume > 0.0):
+        return 1.0 / 3 ** 0.5
+    # By Cauchy, a convex body has a mean silhouette of a quarter of its surface.
+    return min(1.0 / 3 ** 0.5, _MEAN_LENGTHS * 4.0 * (volume / surface / diagonal))
 
 
 def _as_grid(data):
@@ -222,7 +238,8 @@ class Levels:
     finite are left out.
 
     low, high: range of the scalar in the cells that are drawn; 0 and 1 if is_empty, without any
-    finite value. areas, volumes: by bin, BINS of them.
+    finite value. areas, volumes: by bin, BINS of them; all 0 if the scalar has one value. volume:
+    of all these cells.
     """
 
     def __init__(self, data, name, association, component=None):
@@ -244,6 +261,7 @@ class Levels:
         self.is_empty = lows.size == 0
         self.low = float(lows.min()) if lows.size else 0.0
         self.high = float(highs.max()) if highs.size else 1.0
+        self.volume = float(volumes.sum())
         width = (self.high - self.low) / BINS
         self.areas = numpy.zeros(BINS)
         self.volumes = numpy.zeros(BINS)
@@ -265,15 +283,17 @@ class Levels:
             numpy.maximum(numpy.cumsum(sum(parts)), 0.0)
             for parts in zip(*(found[begin] for begin in sorted(found))))
 
-    def get_opacity(self):
+    def get_opacity(self, bounds=None):
         """Attenuation coefficients as pairs (scalar, coefficient), per diagonal of the mesh.
 
         Coefficients are inversely proportional to the area of a level, so that rare values show as
         much as frequent ones. They are scaled so that their mean over the volume makes a ray
-        through a cube (1 / sqrt(3) of the diagonal) OPTICAL_DEPTH deep.
+        through a cube (1 / sqrt(3) of the diagonal) OPTICAL_DEPTH deep, and through a thin mesh
+        one of find_reach(). bounds: of the mesh; default: those of a cube.
         """
+        reach = 3 ** -0.5 if bounds is None else find_reach(bounds, self.volume)
+        middle = OPTICAL_DEPTH / reach
         if self.areas.max() <= 0.0 or self.volumes.sum() <= 0.0:
-            middle = OPTICAL_DEPTH * 3 ** 0.5
             return [(self.low, middle), (max(self.high, self.low + 1e-6), middle)]
         shares = self.areas / self.areas.max()
         weights = 1.0 / (shares + FLOOR)
@@ -281,9 +301,9 @@ class Levels:
         weights -= weights.min() * min((1.0 - shares.min()) / _EVEN, 1.0)
         mean = (weights * self.volumes).sum() / self.volumes.sum()
         if mean > 0.0:
-            weights *= OPTICAL_DEPTH * 3 ** 0.5 / mean
+            weights *= middle / mean
         else:
-            weights[:] = OPTICAL_DEPTH * 3 ** 0.5
+            weights[:] = middle
         width = (self.high - self.low) / BINS
         return [(self.low + (bin + 0.5) * width, float(weight))
                 for bin, weight in enumerate(weights)]

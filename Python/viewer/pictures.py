@@ -124,6 +124,7 @@ def draw_checked(scene, window, transparent=False):
         errors, warnings = reports()
     pixels = [vtk_to_numpy(image.GetPointData().GetScalars()) for image in (picture, without)]
     if (pixels[0] == pixels[1]).all():
+        reasons = [errors[0] if errors else scene.explain_empty_picture(), *warnings]
         raise ReadingError("The picture shows nothing of the mesh: "
-                           + (errors[0] if errors else scene.explain_empty_picture()))
+                           + ". ".join(reason.rstrip(".") for reason in reasons))
     return picture, errors + warnings

@@ -61,12 +61,9 @@ class MeshScene:
                  step=0):
         """array, limits: see set_array(); default: the first array. report: gets a line about the
         mesh as soon as it is read, before work that may take long. step: shown first if the first
-        time step lacks the array."""
+        time step lacks the array, or cannot be drawn."""
         self.series = series
-        self.step = 0
-        self.data = series.read(0)
-        if step and array is not None and array not in arrays_of(self.data):
-            self.step, self.data = step, series.read(step)
+        self.step, self.data = self._read_first(series, array, step)
         report(self.describe())
         self.colors = COLOR_MAPS[0]
         self._curves = {}  # by the kinds of _KINDS; without one it is the default
@@ -104,6 +101,20 @@ class MeshScene:
         look.SetScalarOpacityUnitDistance(self.diagonal)
         self.furniture = Furniture(self.renderer)
         self.furniture.set_data(self.data, self.bounds)
+
+    @staticmethod
+    def _read_first(series, array, step):
+        """Number and data of the first time step, or of `step` if that has no cells to be drawn, or
+        lacks the array."""
+        try:
+            data = series.read(0)
+        except ReadingError:
+            if not step:
+                raise
+        else:
+            if not step or array is None or array in arrays_of(data):
+                return 0, data
+        return step, series.read(step)
 
     def _add_bar(self):
         self._turns, self._reset_at, self._zoom = 1, None, 1.0  # of reset_camera()
@@ -190,7 +201,11 @@ class MeshScene:
             raise ReadingError("The range of the colour map must have a lower end below the upper")
         levels = Levels(self.data, name, association)
         if levels.is_empty:
-            raise ReadingError(f"The array '{name}' has no finite values")
+            others = ", ".join(other for other in arrays if other != name)
+            raise ReadingError(("No cell has a finite value" if association == "cells" else
+                                "No cell has finite values at all of its points")
+                               + f" in the array '{name}'"
+                               + (f"; there are also {others}" if others else ""))
         shown = choose_shown(self.data, name, association, levels.low, levels.high)
         if not shown.is_plain():
             levels = Levels(shown.apply(self.data, name, association), name, association)
@@ -229,7 +244,7 @@ class MeshScene:
         if kind in self._curves:
             return self._curves[kind]
         return _CURVES[kind] if kind in _CURVES else simplify(
-            self.levels.get_opacity(), self.get_range())
+            self.levels.get_opacity(self.mapper.GetBounds()), self.get_range())
 
     def set_curve(self, points):
         """Sets the curve of the blend mode, points as of get_curve(), two at least; None: the
@@ -254,7 +269,7 @@ class MeshScene:
         kind = self._get_kind()
         if kind == _VOLUME and kind not in self._curves:
             opacity.RemoveAllPoints()
-            for scalar, coefficient in self.levels.get_opacity():
+            for scalar, coefficient in self.levels.get_opacity(self.mapper.GetBounds()):
                 opacity.AddPoint(scalar, coefficient)
         else:
             fill_function(opacity, self.get_curve(), (low, high), kind == _VOLUME)
@@ -462,6 +477,10 @@ class MeshScene:
             return f"the opacity is 0 for all values of '{name}', from {low:g} to {high:g}"
         if self.clip_axis is not None and self.mapper.GetNumberOfActiveCells() > 0:
             return "the clipping plane removes all of it"
+        flat = [axis for index, axis in enumerate(AXES)
+                if not self.bounds[2 * index] < self.bounds[2 * index + 1]]
+        if 0 < len(flat) < len(AXES):
+            return "the mesh is flat: it has no extent along " + " and ".join(flat)
         if self.blend == "isosurface":
             return f"no cell has one of the isovalues; '{name}' goes from {low:g} to {high:g}"
         return "no ray through a pixel meets a cell that can be seen"

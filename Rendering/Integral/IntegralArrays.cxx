@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iomanip>
 #include <iterator>
 #include <limits>
@@ -32,6 +33,64 @@ int ComponentsOf(IntegralArray array, int bins)
 {
   return array == IntegralArray::EnergyBins ? bins : array == IntegralArray::RGBA ? 4 : 1;
 }
+
+/** Rays of an energy bin that the mesh has changed, by what has become of them. */
+class PassedRays
+{
+public:
+  void Add(float value, double intensity)
+  {
+    // A detector of 16 bits shows nothing below, a picture of 8 bits no change below.
+    constexpr double levelsOfDetector = 65536.0;
+    constexpr double levelsOfPicture = 256.0;
+    const double passed = static_cast<double>(value);
+    this->Changed += passed != static_cast<double>(static_cast<float>(intensity));
+    this->Infinite += std::isfinite(value) ? 0 : 1;
+    this->Absorbed += passed < intensity / levelsOfDetector;
+    this->Amplified += passed > intensity * (1.0 + 1.0 / levelsOfPicture);
+  }
+
+  /**
+   * Fault of a bin, or an empty text.
+   * @param isLit true if all light comes from behind the mesh.
+   */
+  std::string DescribeFault(bool isLit) const
+  {
+    std::ostringstream text;
+    if (this->Infinite > 0)
+    {
+      text << this->Infinite << " numbers are not finite";
+    }
+    else if (isLit && this->Amplified > 0)
+    {
+      text << this->Amplified << " of " << this->Changed << " rays are amplified";
+    }
+    else if (isLit && this->AreAbsorbed())
+    {
+      text << this->Absorbed << " of " << this->Changed
+           << " rays through the mesh are absorbed but for less than 1 / 65536";
+    }
+    if (isLit && this->Amplified > 0)
+    {
+      text << ": the attenuation, or the scalar, is negative there";
+    }
+    return text.str();
+  }
+
+  /** True if hardly any ray passes. */
+  bool AreAbsorbed() const
+  {
+    // Rays along the border of a mesh have short ways, and pass.
+    constexpr std::int64_t onePassesOf = 100;
+    return this->Absorbed > 0 && this->Absorbed * onePassesOf >= this->Changed * (onePassesOf - 1);
+  }
+
+private:
+  std::int64_t Changed = 0;
+  std::int64_t Infinite = 0;
+  std::int64_t Absorbed = 0;
+  std::int64_t Amplified = 0;
+};
 
 }
 
@@ -147,8 +206,8 @@ void IntegralArrays::SetScalar(
     const auto count = static_cast<std::int64_t>(this->Bins.size());
     for (std::int64_t bin = 0; bin < count; ++bin)
     {
-      bins[count * pixel + bin] = static_cast<float>(
-        TransmittedIntensity(this->Bins[static_cast<std::size_t>(bin)], integral));
+      bins[count * pixel + bin] =
+        ToFloat(TransmittedIntensity(this->Bins[static_cast<std::size_t>(bin)], integral));
     }
   }
 }
@@ -164,7 +223,7 @@ void IntegralArrays::SetBins(std::int64_t pixel, const MeasuredBin& measured,
     const int bin = table.FirstBin + i;
     const double depth = measured.Integrals[static_cast<std::size_t>(i)];
     const double source = this->Bins[static_cast<std::size_t>(bin)].Intensity;
-    bins[bin] = static_cast<float>(source * std::exp(-depth) + (isEmitting ? measured.Light : 0.0));
+    bins[bin] = ToFloat(source * std::exp(-depth) + (isEmitting ? measured.Light : 0.0));
   }
 }
 
@@ -224,6 +283,43 @@ std::string IntegralArrays::WarnOfPrecision(const ScalarDistribution& scalars) c
   if (high > low && largest * static_cast<double>(Float::epsilon()) * levels > high - low)
   {
     return describe("too close together for the output", "subtract a constant");
+  }
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
+std::string IntegralArrays::WarnOfBins(bool isEmitting, double opticalDepth) const
+{
+  const float* values = this->Values[static_cast<std::size_t>(IntegralArray::EnergyBins)];
+  if (!values)
+  {
+    return std::string();
+  }
+  vtkFloatArray* array = this->Arrays[static_cast<std::size_t>(IntegralArray::EnergyBins)];
+  const std::size_t count = this->Bins.size();
+  const auto pixels = static_cast<std::size_t>(array->GetNumberOfTuples());
+  for (std::size_t bin = 0; bin < count; ++bin)
+  {
+    PassedRays rays;
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+    {
+      rays.Add(values[count * pixel + bin], this->Bins[bin].Intensity);
+    }
+    // Light of the mesh may hide what is absorbed.
+    const bool isLit =
+      !isEmitting && this->Bins[bin].Intensity > 0.0 && this->Bins[bin].Emission == 0.0;
+    const std::string fault = rays.DescribeFault(isLit);
+    if (!fault.empty())
+    {
+      std::ostringstream text;
+      text << "Energy bin " << bin << ": " << fault;
+      if (opticalDepth > 0.0 && rays.AreAbsorbed())
+      {
+        text << ". Its attenuation is " << this->Bins[bin].Attenuation << " times the scalar; with "
+             << 1.0 / opticalDepth << " the optical depth of the mesh is about 1";
+      }
+      return text.str() + ".";
+    }
   }
   return std::string();
 }

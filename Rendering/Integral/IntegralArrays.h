@@ -105,6 +105,16 @@ public:
    */
   std::string WarnOfPrecision(const ScalarDistribution& scalars) const;
 
+  /**
+   * Warning about the first energy bin that shows nothing of the mesh, because hardly any ray
+   * passes it, about one whose rays are amplified, and about numbers beyond the range of floats.
+   * Empty if there is none.
+   * @param isEmitting true if an array has the light of the mesh.
+   * @param opticalDepth of a ray as long as the mesh, with the largest scalar and the coefficient
+   * 1; 0 with arrays of attenuation.
+   */
+  std::string WarnOfBins(bool isEmitting, double opticalDepth) const;
+
   EventArrays Events;
 
 private:
@@ -112,16 +122,20 @@ private:
   {
     if (float* values = this->Values[static_cast<std::size_t>(array)])
     {
-      using Float = std::numeric_limits<float>;
-      const bool isTooLarge = std::abs(value) > static_cast<double>(Float::max());
-      values[pixel] = !isTooLarge ? static_cast<float>(value)
-        : value > 0.0             ? Float::infinity()
-                                  : -Float::infinity();
-      if (isTooLarge)
+      values[pixel] = ToFloat(value);
+      if (std::isinf(values[pixel]))
       {
         ++this->TooLarge;
       }
     }
+  }
+  /** A number in single precision, infinite beyond its range. */
+  static float ToFloat(double value)
+  {
+    using Float = std::numeric_limits<float>;
+    return !(std::abs(value) > static_cast<double>(Float::max())) ? static_cast<float>(value)
+      : value > 0.0                                               ? Float::infinity()
+                                                                  : -Float::infinity();
   }
 
   std::array<vtkNew<vtkFloatArray>, NumberOfIntegralArrays> Arrays;

@@ -386,7 +386,8 @@ class TestRays(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "as many intensities or one"):
                 meniscus.radiograph(self.block, "density", attenuation, intensity=intensity)
         for name, wrong in (("attenuation", float("nan")), ("attenuation", [0.1, float("inf")]),
-                            ("intensity", float("nan")), ("intensity", -1.0)):
+                            ("attenuation", -0.1), ("intensity", float("nan")),
+                            ("intensity", -1.0)):
             with self.assertRaisesRegex(ValueError, "^%s must be a finite number" % name):
                 meniscus.radiograph(self.block, "density", **{name: wrong})
         for name, wrong in (("attenuation", "x"), ("intensity", b"x"), ("intensity", ["x"])):

@@ -21,8 +21,11 @@ except ImportError:
 
 import numpy
 from meniscus.pyvista import add_volume, refracted
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkVersion
-from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes
+from vtkmodules.vtkCommonDataModel import (
+    VTK_XYZ_GRID, vtkAMRBox, vtkAMRUtilities, vtkDataSetAttributes, vtkOverlappingAMR,
+    vtkUniformGrid)
 
 SIZE = 120
 CELLS = 8
@@ -153,6 +156,95 @@ class TestComponents(unittest.TestCase):
                 plotter.close()
             numpy.testing.assert_array_equal(picture_of(cube, "U", component=component),
                                              picture_of(cube, str(component)))
+
+
+    def test_blocks_with_other_components(self):
+        vectors, numbers = make_cube(), make_cube()
+        vectors["y"] = vectors["U"]
+        colors = [make_cube(), make_cube()]
+        colors[0]["c"] = numpy.full((colors[0].n_points, 4), 200, numpy.uint8)
+        colors[1]["c"] = numpy.full((colors[1].n_points, 4), 0.8)
+        plotter = pyvista.Plotter(off_screen=True)
+        for order in ([vectors, numbers], [numbers, vectors]):
+            for component in (None, 0, 2):
+                with self.assertRaisesRegex(ValueError, "has 1 or 3 components"):
+                    add_volume(plotter, pyvista.MultiBlock(order), "y", component=component)
+        for order in (colors, colors[::-1]):
+            with self.assertRaisesRegex(ValueError, "uint8 in some blocks"):
+                add_volume(plotter, pyvista.MultiBlock(order), "c", rgba=True)
+        plotter.close()
+
+
+class TestTypes(unittest.TestCase):
+    """Arrays of NumPy's types, and grids of VTK's."""
+
+    def test_truths(self):
+        """True is drawn as 1, not as one of 255."""
+        cube = make_cube()
+        cube["truth"], cube["number"] = cube["y"] > 0.4, (cube["y"] > 0.4) * 1.0
+        for mesh in (cube, pyvista.MultiBlock([cube])):
+            numpy.testing.assert_array_equal(picture_of(mesh, "truth"), picture_of(mesh, "number"))
+        plotter = pyvista.Plotter(off_screen=True)
+        volume = add_volume(plotter, cube, "truth")
+        self.assertEqual(tuple(volume.mapper.scalar_range), (0.0, 1.0))
+        plotter.close()
+
+    def test_masks(self):
+        """Values that are masked are not drawn."""
+        cube = make_cube()
+        holes = numpy.where(cube["y"] > 0.6, numpy.nan, cube["y"])
+        expected = picture_of(cube, holes)
+        for values in (cube["y"], (cube["y"] * CELLS).astype(int)):
+            masked = numpy.ma.masked_array(values, cube["y"] > 0.6)
+            picture = picture_of(cube, masked, clim=(0, values.max()))
+            numpy.testing.assert_array_equal(picture, picture_of(
+                cube, numpy.where(cube["y"] > 0.6, numpy.nan, values), clim=(0, values.max())))
+        self.assertGreater(abs(expected - picture_of(cube, "y")).max(), 20)
+        whole = numpy.ma.masked_array(cube["y"], numpy.zeros(cube.n_points, bool))
+        numpy.testing.assert_array_equal(picture_of(cube, whole), picture_of(cube, "y"))
+        image = make_cube()["y"].reshape((CELLS + 1,) * 3)
+        numpy.testing.assert_array_equal(
+            picture_of(numpy.ma.masked_greater(image, 0.6)),
+            picture_of(numpy.where(image > 0.6, numpy.nan, image)))
+
+    def test_arrays_with_three_dimensions(self):
+        values = make_cube()["y"].reshape((CELLS + 1,) * 3)
+        expected = picture_of(values)
+        for kind in (numpy.float16, numpy.longdouble, ">f8"):
+            numpy.testing.assert_array_equal(picture_of(values.astype(kind)), expected)
+        for wrong, message in ((values + 1j, "complex"), (values[0], "2 dimensions"),
+                               (values.astype(str), "dimensions of <U")):
+            with self.assertRaisesRegex(ValueError, message):
+                picture_of(wrong)
+
+    def test_refined_grids(self):
+        """A block of an AMR grid is drawn where no finer block is."""
+        grid = vtkOverlappingAMR()
+        grid.Initialize(2, [1, 1])
+        grid.SetOrigin([0.0, 0.0, 0.0])
+        grid.SetGridDescription(VTK_XYZ_GRID)
+        for level, (low, high) in enumerate(((0, 3), (2, 5))):
+            spacing, size = 0.5 ** level, high - low + 1
+            grid.SetSpacing(level, [spacing] * 3)
+            grid.SetAMRBox(level, 0, vtkAMRBox([low] * 3, [high] * 3))
+            block = vtkUniformGrid()
+            block.SetOrigin([low * spacing] * 3)
+            block.SetSpacing([spacing] * 3)
+            block.SetDimensions([size + 1] * 3)
+            array = numpy_to_vtk(numpy.full(size ** 3, level + 1.0), deep=True)
+            array.SetName("level")
+            block.GetCellData().AddArray(array)
+            grid.SetDataSet(level, 0, block)
+            grid.SetRefinementRatio(level, 2)
+        vtkAMRUtilities.BlankCells(grid)
+        whole = pyvista.ImageData(dimensions=(9, 9, 9), spacing=(0.5,) * 3)
+        inside = (abs(whole.cell_centers().points - 2.0) < 1.0).all(axis=1)
+        whole.cell_data["level"] = numpy.where(inside, 2.0, 1.0)
+        expected = picture_of(whole.cast_to_unstructured_grid(), "level", clim=(0, 2))
+        self.assertLessEqual(abs(picture_of(grid, "level", clim=(0, 2)) - expected).max(), 1)
+        coarse = grid.GetDataSet(0, 0)
+        coarse.GetCellData().RemoveArray(vtkDataSetAttributes.GhostArrayName())
+        self.assertGreater(picture_of(coarse, "level", clim=(0, 2)).max(), 20)
 
 
 class TestHiddenCells(unittest.TestCase):
@@ -305,6 +397,17 @@ class TestLogarithms(unittest.TestCase):
         # Entries of the table are bytes.
         numpy.testing.assert_allclose(look.GetRGBTransferFunction().GetColor(0.1),
                                       (0.2297, 0.3224, 0.5457), atol=1.5 / 255)
+        plotter.close()
+
+    def test_isosurfaces(self):
+        """A number of isosurfaces has values at equal distances on the scale."""
+        plotter = pyvista.Plotter(off_screen=True)
+        for name, named, expected in (("decades", {"log_scale": True}, (0.1, 1.0, 10.0)),
+                                      ("y", {}, (0.25, 0.5, 0.75))):
+            contours = add_volume(plotter, make_cube(), name, isovalues=3, **named
+                                  ).GetProperty().GetIsoSurfaceValues()
+            numpy.testing.assert_allclose(
+                [contours.GetValue(index) for index in range(3)], expected)
         plotter.close()
 
     def test_values_at_and_below_zero(self):

@@ -6,7 +6,9 @@ import unittest
 
 from meniscus import integrals, vtkTetrahedraRayIntegral
 from vtkmodules.vtkCommonCore import vtkDoubleArray
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
+from vtkmodules.vtkCommonDataModel import (
+    vtkHyperTreeGrid, vtkImageData, vtkMolecule, vtkMultiBlockDataSet, vtkTable)
+from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 from vtkmodules.vtkRenderingCore import vtkCamera
 
 # The goal of the class, relative to the largest value.
@@ -58,9 +60,28 @@ class TestRayIntegral(unittest.TestCase):
             for component in (None, 3, "length"):
                 with self.assertRaisesRegex(ValueError, 'component=0, 1, 2 or "magnitude"'):
                     integrals.ray_integral(mesh, scalars="vectors", component=component)
+        # Another block with a number in place of the vector, before or behind it.
+        numbers = make_block()
+        numbers.GetPointData().GetArray("density").SetName("vectors")
+        for number in range(2):
+            blocks.SetBlock(number, numbers)
+            blocks.SetBlock(1 - number, self.block)
+            for component in (None, 2):
+                with self.assertRaisesRegex(ValueError, "component"):
+                    integrals.ray_integral(blocks, scalars="vectors", component=component)
         values = integrals.ray_integral(
             self.block, scalars="vectors", ArrayComponent=2, size=(8, 4))
         self.assertAlmostEqual(values[1, 2], 4.5, delta=4.5 * TOLERANCE)
+
+    def test_data_that_are_no_mesh(self):
+        for data in (vtkTable(), vtkMolecule(), vtkHyperTreeGrid()):
+            with self.assertRaisesRegex(TypeError, "must be a dataset, not " + type(data).__name__):
+                integrals.ray_integral(data)
+        # A filter may yield anything: the pipeline says so.
+        source = vtkTrivialProducer()
+        source.SetOutput(vtkTable())
+        with self.assertRaisesRegex(ValueError, "is of type vtkTable"):
+            integrals.ray_integral(source)
 
     def test_without_numpy(self):
         numpy, integrals.numpy = integrals.numpy, None

@@ -2,18 +2,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Values of any size, names of any length, and time steps that differ, by the command's scene."""
 import os
+import struct
 import tempfile
 import unittest
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
-from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import (
+    VTK_LAGRANGE_TETRAHEDRON, vtkImageData, vtkMultiBlockDataSet, vtkUnstructuredGrid)
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLUnstructuredGridWriter
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from meniscus.viewer.command import make_parser, make_scene
+from meniscus.viewer.levels import find_reach
 from meniscus.viewer.pictures import draw_picture, make_window
-from meniscus.viewer.reading import ReadingError
+from meniscus.viewer.reading import MeshSeries, ReadingError
 from meniscus.viewer.scene import LONGEST_NAME, MeshScene
 from meniscus.viewer.shown import Shown, choose_of_range
 
@@ -55,6 +59,22 @@ class Steps:
 
     def read(self, step):
         return self.steps[step]
+
+
+def write_netcdf(name, values, fill):
+    """A netCDF file, of the classic format, with one variable T(z, y, x) and a fill value."""
+    def text(string):
+        return struct.pack(">i", len(string)) + string + b"\0" * (-len(string) % 4)
+
+    sizes = values.shape
+    start = b"CDF\x01" + struct.pack(">iii", 0, 10, 3)
+    start += b"".join(text(axis) + struct.pack(">i", size) for axis, size in zip((
+        b"z", b"y", b"x"), sizes))
+    start += struct.pack(">iiii", 0, 0, 11, 1) + text(b"T") + struct.pack(">iiii", 3, 0, 1, 2)
+    start += struct.pack(">ii", 12, 1) + text(b"_FillValue") + struct.pack(">iid", 6, 1, fill)
+    start += struct.pack(">iii", 6, 8 * values.size, len(start) + 12)
+    with open(name, "wb") as file:
+        file.write(start + values.astype(">f8").tobytes())
 
 
 def draw(scene):
@@ -146,7 +166,96 @@ class Values(unittest.TestCase):
                 scene.set_array(name)  # it is not renamed
 
 
+class Shapes(unittest.TestCase):
+    """Meshes of which little or nothing is seen."""
+
+    def test_reach(self):
+        cube = 3 ** -0.5
+        for size, volume, reach in (
+                ((2, 2, 2), 8, cube), ((2, 2, 2), 4 * numpy.pi / 3, cube), ((1, 1, 4), 4, cube),
+                ((1, 1, 1e-3), 1e-3, 6e-3 / 1.002 / 2 ** 0.5), ((1, 1, 1), 1e-3, 2e-3 * cube),
+                ((1, 1, 0), 0, cube), ((1e200, 1e200, 1e200), numpy.inf, cube)):
+            with self.subTest(size=size):
+                bounds = [end for length in size for end in (5.0, 5.0 + length)]
+                self.assertAlmostEqual(find_reach(bounds, volume), reach, delta=1e-5 * reach)
+
+    def test_thin_plates(self):
+        """A plate is seen from its front, however thin it is."""
+        pictures = []
+        for thickness in (1.0, 1e-2, 1e-3, 1e-4):
+            image = make_image(STEPS.astype(float))
+            image.SetSpacing(1.0, 1.0, thickness / (SIDE - 1))
+            scene = make(image)
+            scene.reset_camera((0.0, 0.0, 1.0))
+            pictures.append(draw(scene))
+        for picture in pictures[1:]:
+            self.assertLess(abs(picture - pictures[1]).max(), 4)
+        self.assertGreater(numpy.ptp(pictures[1]), 60)
+
+    def test_reasons_of_empty_pictures(self):
+        flat = make_image(STEPS.astype(float))
+        flat.SetSpacing(1.0, 0.0, 1.0)
+        wrong, points = vtkUnstructuredGrid(), vtkPoints()
+        for place in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (1, 0, 1), (0, 1, 1)):
+            points.InsertNextPoint(place)
+        wrong.SetPoints(points)
+        wrong.InsertNextCell(VTK_LAGRANGE_TETRAHEDRON, 7, range(7))
+        array = numpy_to_vtk(numpy.arange(7.0), deep=True)
+        array.SetName("T")
+        wrong.GetPointData().AddArray(array)
+        for data, reason in ((flat, "the mesh is flat: it has no extent along y"),
+                             (wrong, "1 with a number of points that their type does not have")):
+            with self.subTest(reason=reason), self.assertRaisesRegex(ReadingError, reason):
+                draw(make(data))
+
+    def test_cells_without_finite_values(self):
+        rows = numpy.where(numpy.arange(STEPS.size) // SIDE % 2 == 1, numpy.nan, STEPS)
+        other = numpy_to_vtk(numpy.zeros(STEPS.size), deep=True)
+        other.SetName("p")
+        for values, cells, message in (
+                (rows, False, "No cell has finite values at all of its points in the array 'T'"),
+                (numpy.full((SIDE - 1) ** 3, numpy.inf), True,
+                 "No cell has a finite value in the array 'T'")):
+            image = make_image(values, cells=cells)
+            with self.subTest(message=message), self.assertRaisesRegex(ReadingError, message + "$"):
+                make(image)
+            image.GetPointData().AddArray(other)
+            with self.assertRaisesRegex(ReadingError, "'T'; there are also p$"):
+                make(image, array="T")
+
+    def test_fill_values(self):
+        """Values that a netCDF file has filled in are no values."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        name = os.path.join(folder.name, "sea.nc")
+        values = numpy.arange(64.0).reshape(4, 4, 4)
+        values[0] = 9.96921e36
+        write_netcdf(name, values, 9.96921e36)
+        scene = make_scene(make_parser().parse_args([name]))
+        self.assertEqual((scene.levels.low, scene.levels.high), (16.0, 63.0))
+
+
 class TimeSteps(unittest.TestCase):
+    def test_steps_and_parts_without_cells(self):
+        """A step without cells is left out where another one is asked for, a part always."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        names = [os.path.join(folder.name, name) for name in ("empty.vtu", "image.vti", "all.pvd")]
+        for name, writer, data in zip(
+                names, (vtkXMLUnstructuredGridWriter(), vtkXMLImageDataWriter()),
+                (vtkUnstructuredGrid(), make_image(STEPS.astype(float)))):
+            writer.SetFileName(name)
+            writer.SetInputData(data)
+            writer.Write()
+        scene = make_scene(make_parser().parse_args([*names[:2], "--step", "1"]))
+        self.assertEqual((scene.step, scene.get_range()), (1, (0.0, 16.0)))
+        with self.assertRaisesRegex(ReadingError, "The mesh has no cells"):
+            make_scene(make_parser().parse_args(names[:2]))
+        with open(names[2], "w") as file:
+            file.write('<VTKFile type="Collection"><Collection><DataSet file="empty.vtu"/>'
+                       '<DataSet file="image.vti"/></Collection></VTKFile>')
+        self.assertEqual(MeshSeries(names[2:]).read(0).GetNumberOfCells(), (SIDE - 1) ** 3)
+
     def expect_like(self, scene, step):
         """Expects the picture of a scene of that step alone."""
         alone = make(step, array=scene.array, limits=scene.get_range())

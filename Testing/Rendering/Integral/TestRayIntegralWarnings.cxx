@@ -291,3 +291,62 @@ TEST(MeshWarnings, ScalarsThatFloatsDoNotHold)
     EXPECT_TRUE(UpdateAndListen(rays).empty()) << what;
   }
 }
+
+/** A bin that shows nothing of the mesh, or amplifies rays, causes a warning with the reason. */
+TEST(MeshWarnings, EnergyBinsThatShowNothing)
+{
+  struct Case
+  {
+    double Attenuation;
+    double Emission;
+    double Intensity;
+    const char* Fault;
+  };
+  for (const Case& bin : { Case{ 1.0, 0.0, 1.0, nullptr }, { 8.0, 0.0, 1.0, nullptr },
+         { 20.0, 0.0, 1.0, "16 of 16 rays through the mesh are absorbed" },
+         { 1e300, 0.0, 1.0, "16 of 16 rays through the mesh are absorbed" },
+         { 20.0, 1.0, 1.0, nullptr }, { 20.0, 0.0, 0.0, nullptr }, { 0.0, 0.0, 1.0, nullptr },
+         { -1.0, 0.0, 1.0, "16 of 16 rays are amplified: the attenuation, or the scalar" },
+         { -1e3, 0.0, 1.0, "16 numbers are not finite: the attenuation, or the scalar" },
+         { 1.0, 1e300, 1.0, "16 numbers are not finite" } })
+  {
+    const std::string what = std::to_string(bin.Attenuation);
+    const Filter rays = MakeFilter(MakeLayers(2, 0.5), 4, 4, { "EnergyBins" });
+    rays->SetBinAttenuation(1, bin.Attenuation);
+    rays->SetBinEmission(1, bin.Emission);
+    rays->SetBinIntensity(1, bin.Intensity);
+    const std::vector<std::string> warnings = UpdateAndListen(rays);
+    ASSERT_EQ(warnings.size(), bin.Fault ? 1u : 0u) << what;
+    if (bin.Fault)
+    {
+      EXPECT_TRUE(HasText(warnings[0], std::string("Energy bin 1: ") + bin.Fault)) << what;
+      // The diagonal of the cube is the square root of 3.
+      EXPECT_EQ(static_cast<bool>(HasText(warnings[0], "with 0.57735 the optical depth of the")),
+        bin.Attenuation > 1.0)
+        << what;
+    }
+  }
+}
+
+/** The same for arrays of attenuation, which have no coefficient that could be another one. */
+TEST(MeshWarnings, AttenuationsThatAbsorbAllRays)
+{
+  for (const double attenuation : { 1.0, 20.0 })
+  {
+    const Grid grid = MakeLayers(2, 0.5);
+    vtkNew<vtkDoubleArray> array;
+    array->SetName("mu");
+    array->SetNumberOfTuples(grid->GetNumberOfCells());
+    array->Fill(attenuation);
+    grid->GetCellData()->AddArray(array);
+    const Filter rays = MakeFilter(grid, 4, 4, { "EnergyBins" });
+    rays->SetAttenuationArrayName("mu");
+    const std::vector<std::string> warnings = UpdateAndListen(rays);
+    ASSERT_EQ(warnings.size(), attenuation > 1.0 ? 1u : 0u);
+    EXPECT_TRUE(warnings.empty() || HasText(warnings[0], "are absorbed but for less than"));
+    EXPECT_TRUE(warnings.empty() || !HasText(warnings[0], "the optical depth"));
+    // Light of the mesh itself comes through.
+    rays->SetEmissionArrayName("mu");
+    EXPECT_TRUE(UpdateAndListen(rays).empty());
+  }
+}
