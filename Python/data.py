@@ -90,6 +90,8 @@ def run(algorithm):
             algorithm.RemoveObserver(observer)
         algorithm.GetExecutive().RemoveObserver(watch)
     if messages["ErrorEvent"] or faults:
-        raise ValueError((messages["ErrorEvent"] or faults)[0])
+        # Warnings that came before may have the reason.
+        raise ValueError(" ".join([(messages["ErrorEvent"] or faults)[0],
+                                   *messages["WarningEvent"]]))
     for message in messages["WarningEvent"]:
         warn(message, RuntimeWarning)

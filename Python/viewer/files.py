@@ -16,6 +16,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from .appended import find_fault
 from .guard import noting_file
 
+_AMR = ("vtkIOXML", "vtkXMLUniformGridAMRReader")
 _EXODUS = ("vtkIOExodus", "vtkExodusIIReader")
 _BYU = ("vtkIOGeometry", "vtkBYUReader")
 _ENSIGHT = ("vtkIOEnSight", "vtkGenericEnSightReader")
@@ -34,6 +35,8 @@ READERS = {
     ".vtm": ("vtkIOXML", "vtkXMLMultiBlockDataReader"),
     ".vtpd": ("vtkIOXML", "vtkXMLPartitionedDataSetReader"),
     ".vtpc": ("vtkIOXML", "vtkXMLPartitionedDataSetCollectionReader"),
+    ".vth": _AMR,
+    ".vthb": _AMR,
     ".vtk": ("vtkIOLegacy", "vtkGenericDataObjectReader"),
     ".vtkhdf": ("vtkIOHDF", "vtkHDFReader"),
     ".hdf": ("vtkIOHDF", "vtkHDFReader"),
@@ -204,6 +207,8 @@ def _select_all(reader):
     if hasattr(reader, "SetAllArrayStatus"):  # Exodus
         for kind in (reader.NODAL, reader.ELEM_BLOCK):
             reader.SetAllArrayStatus(kind, 1)
+    if hasattr(reader, "SetMaximumLevelsToReadByDefault"):  # AMR
+        reader.SetMaximumLevelsToReadByDefault(0)  # all
     if hasattr(reader, "GetAllDimensions"):  # netCDF: variables of one set of dimensions
         dimensions = [reader.GetAllDimensions().GetValue(index)
                       for index in range(reader.GetAllDimensions().GetNumberOfValues())]
@@ -351,10 +356,10 @@ def open_file(name):
     """A file with get_times() and read(time): of an ending in READERS or MESHIO_ENDINGS, or of
     another one that PyVista or meshio know; a folder may be a case of OpenFOAM."""
     if os.path.isfile(os.path.join(name, "system", "controlDict")):
-        name = os.path.join(name, "case.foam")
+        name = os.path.join(name, "case.foam")  # which need not exist
     else:
         check_exists(name)
-    _check_signature(name)
+        _check_signature(name)
     suffix = ending_of(name)
     if suffix in MESHIO_ENDINGS or (suffix == ".inp" and _first_line(name).startswith("*")):
         return _MeshioFile(name)

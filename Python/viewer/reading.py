@@ -86,7 +86,8 @@ def _mend_arrays(data):
 
 
 def arrays_of(data):
-    """Arrays of points and cells as {name: (association, components)}; points come first."""
+    """Arrays of points and cells as {name: (association, components)}; points come first. Of data
+    sets that differ in components, the largest number counts."""
     arrays = {}
     leaves = drawn_leaves_of(data)
     for association in ("points", "cells"):
@@ -95,8 +96,10 @@ def arrays_of(data):
             for index in range(attributes.GetNumberOfArrays()):
                 array = attributes.GetArray(index)
                 if array is not None and array.GetName() and not _is_internal(array.GetName()):
-                    found = (association, array.GetNumberOfComponents())
-                    arrays.setdefault(array.GetName(), found)
+                    place, components = arrays.get(array.GetName(), (association, 0))
+                    if place == association:
+                        components = max(components, array.GetNumberOfComponents())
+                    arrays[array.GetName()] = (place, components)
     return arrays
 
 

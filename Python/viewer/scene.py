@@ -17,7 +17,7 @@ from .cells import drawn_leaves_of
 from .colors import COLOR_MAPS, fill_colors, find_colors, make_table
 from .curves import check_curve, fill_function, simplify
 from .furniture import Furniture, find_label_format
-from .levels import BINS, Levels
+from .levels import BINS, Levels, values_of
 from .reading import MeshSeries, ReadingError, arrays_of
 from .shown import Shown, choose_shown
 
@@ -201,11 +201,7 @@ class MeshScene:
             raise ReadingError("The range of the colour map must have a lower end below the upper")
         levels = Levels(self.data, name, association)
         if levels.is_empty:
-            others = ", ".join(other for other in arrays if other != name)
-            raise ReadingError(("No cell has a finite value" if association == "cells" else
-                                "No cell has finite values at all of its points")
-                               + f" in the array '{name}'"
-                               + (f"; there are also {others}" if others else ""))
+            raise ReadingError(self._explain_no_values(name, association))
         shown = choose_shown(self.data, name, association, levels.low, levels.high)
         if not shown.is_plain():
             levels = Levels(shown.apply(self.data, name, association), name, association)
@@ -215,6 +211,17 @@ class MeshScene:
         self.levels = levels
         self._select()
         self._update_functions()
+
+    def _explain_no_values(self, name, association):
+        """Why no cell has values of an array that can be shown."""
+        values = [values_of(attributes.GetArray(name), None) for attributes in (
+            leaf.GetPointData() if association == "points" else leaf.GetCellData()
+            for leaf in drawn_leaves_of(self.data)) if attributes.HasArray(name)]
+        others = [other for other in arrays_of(self.data) if other != name]
+        return (f"The array '{name}' has no finite values" if not any(
+            numpy.isfinite(part).any() for part in values) else
+            f"No cell has finite values of the array '{name}' at all of its points") + (
+                f"; there are also {', '.join(others)}" if others else "")
 
     def get_drawn(self):
         """The data that are drawn: those of the time step, with the numbers that are shown."""

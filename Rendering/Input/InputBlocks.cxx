@@ -147,21 +147,22 @@ FoundScalars FindScalars(vtkDataSet* grid, const ScalarSelection& selection)
   return found;
 }
 
-/** Leaves that may have something to draw. */
+/** Leaves that may have something to draw: surfaces if there is nothing else. */
 std::vector<vtkDataSet*> LeavesOf(vtkCompositeDataSet* composite)
 {
   std::vector<vtkDataSet*> leaves;
+  std::vector<vtkDataSet*> surfaces;
   vtkSmartPointer<vtkCompositeDataIterator> leaf;
   leaf.TakeReference(composite->NewIterator());
   for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
   {
     vtkDataSet* grid = vtkDataSet::SafeDownCast(leaf->GetCurrentDataObject());
-    if (grid && !vtkPolyData::SafeDownCast(grid) && grid->GetNumberOfCells() > 0)
+    if (grid && grid->GetNumberOfCells() > 0)
     {
-      leaves.push_back(grid);
+      (vtkPolyData::SafeDownCast(grid) ? surfaces : leaves).push_back(grid);
     }
   }
-  return leaves;
+  return leaves.empty() ? surfaces : leaves;
 }
 
 InputReport CollectLeaves(

@@ -112,6 +112,20 @@ std::string DescribeNodes(const std::string& name, Function* function)
   return text.str();
 }
 
+/** Sentence about the nodes of a function that are negative; empty if there are none. */
+std::string DescribeNegative(const std::string& name, vtkPiecewiseFunction* function)
+{
+  int count = 0;
+  for (int i = 0; i < function->GetSize(); ++i)
+  {
+    const OpacityNode node = NodeOf(function, i);
+    count += IsFinite(node) && node[1] < 0.0 ? 1 : 0;
+  }
+  return count == 0 ? std::string()
+                    : std::to_string(count) + " of the " + std::to_string(function->GetSize()) +
+      " nodes of the " + name + (count == 1 ? " is" : " are") + " negative";
+}
+
 /** True if the values between nodes are the means of theirs. */
 bool IsStraight(vtkPiecewiseFunction*)
 {
@@ -208,6 +222,8 @@ InputReport CheckFunctions(vtkVolumeProperty* property, int component, OpacityMe
     return report;
   }
   AddNodes("scalar opacity", opacity, report);
+  AddSentence(
+    DescribeNegative("scalar opacity", opacity), ": negative opacities count as 0.", report);
   if (property->GetColorChannels(component) == 1)
   {
     AddNodes("grey levels", property->GetGrayTransferFunction(component), report);

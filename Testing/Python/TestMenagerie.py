@@ -7,6 +7,7 @@ import csv
 import importlib.util
 import io
 import os
+import shutil
 import tempfile
 import unittest
 
@@ -111,6 +112,18 @@ class TestMenagerie(unittest.TestCase):
             picture = os.path.join(folder, "picture.png")
             status = main([name, "--output", picture, "--size", "40x30"])
             return status, errors.getvalue(), os.path.exists(picture)
+
+    def test_folders(self):
+        """The folder of a case of OpenFOAM needs no file of the case's own."""
+        with tempfile.TemporaryDirectory() as folder:
+            case = os.path.join(folder, "case")
+            shutil.copytree(os.path.join(FOLDER, "openfoam"), case,
+                            ignore=shutil.ignore_patterns("*.foam"))
+            self.assertEqual(self.run_command(case), (0, "", True))
+            shutil.rmtree(os.path.join(case, "constant"))
+            status, errors, written = self.run_command(case)
+            self.assertEqual((status, written), (1, False))
+            self.assertIn("Cannot open directory", errors)
 
     def test_messages(self):
         for row in self.rows:

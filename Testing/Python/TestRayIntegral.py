@@ -9,6 +9,7 @@ from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkCommonDataModel import (
     vtkHyperTreeGrid, vtkImageData, vtkMolecule, vtkMultiBlockDataSet, vtkTable)
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
+from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkRenderingCore import vtkCamera
 
 # The goal of the class, relative to the largest value.
@@ -82,6 +83,16 @@ class TestRayIntegral(unittest.TestCase):
         source.SetOutput(vtkTable())
         with self.assertRaisesRegex(ValueError, "is of type vtkTable"):
             integrals.ray_integral(source)
+
+    def test_surfaces(self):
+        """The error about a mesh without volume says of which types its cells are."""
+        sphere = vtkSphereSource()
+        sphere.Update()
+        blocks = vtkMultiBlockDataSet()
+        blocks.SetBlock(0, sphere.GetOutput())
+        for mesh in (sphere.GetOutput(), blocks):
+            with self.assertRaisesRegex(ValueError, r"96 vtkTriangle \(without a volume\)"):
+                integrals.ray_integral(mesh, "PathLength")
 
     def test_without_numpy(self):
         numpy, integrals.numpy = integrals.numpy, None

@@ -10,8 +10,10 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (
-    VTK_LAGRANGE_TETRAHEDRON, vtkImageData, vtkMultiBlockDataSet, vtkUnstructuredGrid)
-from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLUnstructuredGridWriter
+    VTK_LAGRANGE_TETRAHEDRON, VTK_XYZ_GRID, vtkAMRBox, vtkImageData, vtkMultiBlockDataSet,
+    vtkOverlappingAMR, vtkUniformGrid, vtkUnstructuredGrid)
+from vtkmodules.vtkIOXML import (
+    vtkXMLImageDataWriter, vtkXMLUniformGridAMRWriter, vtkXMLUnstructuredGridWriter)
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from meniscus.viewer.command import make_parser, make_scene
@@ -129,6 +131,50 @@ class Values(unittest.TestCase):
                                                 origin=index * (SIDE - 1.0)))
         self.expect_same(*map(make, blocks))
 
+    def test_blocks_with_other_components(self):
+        """A number is shown beside vectors, whatever the order of the blocks."""
+        vectors = numpy.zeros((STEPS.size, 3))
+        vectors[:, 1] = STEPS
+        parts = [make_image(-1.0 - STEPS, origin=SIDE - 1.0), make_image(vectors)]
+        for order in (parts, parts[::-1]):
+            blocks = vtkMultiBlockDataSet()
+            for part in order:
+                blocks.SetBlock(blocks.GetNumberOfBlocks(), part)
+            scene = make(blocks)
+            self.assertEqual(scene.get_range(), (-17.0, 16.0))
+            self.assertEqual(scene.mapper.GetVectorMode(), scene.mapper.MAGNITUDE)
+
+    def test_refined_grids(self):
+        """A file of an AMR grid is read with all levels; finer cells take the place of coarse."""
+        grid = vtkOverlappingAMR()
+        grid.Initialize(3, [1, 1, 1])
+        grid.SetOrigin([0.0, 0.0, 0.0])
+        grid.SetGridDescription(VTK_XYZ_GRID)
+        for level, (low, high) in enumerate(((0, 3), (2, 5), (6, 9))):
+            spacing, size = 0.5 ** level, high - low + 1
+            grid.SetSpacing(level, [spacing] * 3)
+            grid.SetAMRBox(level, 0, vtkAMRBox([low] * 3, [high] * 3))
+            block = vtkUniformGrid()
+            block.SetOrigin([low * spacing] * 3)
+            block.SetSpacing([spacing] * 3)
+            block.SetDimensions([size + 1] * 3)
+            array = numpy_to_vtk(numpy.full(size ** 3, level + 1.0), deep=True)
+            array.SetName("level")
+            block.GetCellData().AddArray(array)
+            grid.SetDataSet(level, 0, block)
+            grid.SetRefinementRatio(level, 2)
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        writer = vtkXMLUniformGridAMRWriter()
+        writer.SetFileName(os.path.join(folder.name, "grid.vthb"))
+        writer.SetInputData(grid)
+        writer.Write()
+        scene = make_scene(make_parser().parse_args([writer.GetFileName()]))
+        self.assertEqual(scene.get_range(), (1.0, 3.0))
+        # 64 cells of the volume 1, of which finer ones replace 8, and these in turn.
+        self.assertAlmostEqual(scene.levels.volume, 64.0)
+        draw(scene)
+
     def test_isosurfaces_and_ranges_are_of_the_values(self):
         shifted = make(make_image(1e15 + 0.125 * STEPS), limits=(1e15 + 0.25, 1e15 + 1.0))
         plain = make(make_image(0.125 * STEPS), limits=(0.25, 1.0))
@@ -213,14 +259,14 @@ class Shapes(unittest.TestCase):
         other = numpy_to_vtk(numpy.zeros(STEPS.size), deep=True)
         other.SetName("p")
         for values, cells, message in (
-                (rows, False, "No cell has finite values at all of its points in the array 'T'"),
+                (rows, False, "No cell has finite values of the array 'T' at all of its points"),
                 (numpy.full((SIDE - 1) ** 3, numpy.inf), True,
-                 "No cell has a finite value in the array 'T'")):
+                 "The array 'T' has no finite values")):
             image = make_image(values, cells=cells)
             with self.subTest(message=message), self.assertRaisesRegex(ReadingError, message + "$"):
                 make(image)
             image.GetPointData().AddArray(other)
-            with self.assertRaisesRegex(ReadingError, "'T'; there are also p$"):
+            with self.assertRaisesRegex(ReadingError, message + "; there are also p$"):
                 make(image, array="T")
 
     def test_fill_values(self):

@@ -254,6 +254,30 @@ TEST(TetrahedraRayCastComposite, SurfacesAndEmptyLeavesAreNoMistake)
   EXPECT_TRUE(empty.Observer->Errors.empty());
 }
 
+/** Surfaces alone are one: the warning has the types of their cells. */
+TEST(TetrahedraRayCastComposite, SurfacesAlone)
+{
+  vtkNew<vtkPolyData> surface;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> polygons;
+  vtkNew<vtkDoubleArray> scalars;
+  for (const glm::dvec3& x : { glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(1.0) })
+  {
+    points->InsertNextPoint(x.x, x.y, x.z);
+    scalars->InsertNextValue(x.y);
+  }
+  const vtkIdType ids[3] = { 0, 1, 2 };
+  polygons->InsertNextCell(3, ids);
+  surface->SetPoints(points);
+  surface->SetPolys(polygons);
+  surface->GetPointData()->SetScalars(scalars);
+  AnyScene scene(MakeBlocks({ surface, nullptr }));
+  scene.RenderFloat();
+  ASSERT_EQ(scene.Observer->Warnings.size(), 1u);
+  EXPECT_TRUE(HasText(scene.Observer->Warnings[0], "1 vtkTriangle (without a volume)"));
+  EXPECT_TRUE(scene.Observer->Errors.empty());
+}
+
 TEST(TetrahedraRayCastComposite, ChangesOfALeaf)
 {
   const Grid whole = MakeBlock(4, WavyField(3.0));

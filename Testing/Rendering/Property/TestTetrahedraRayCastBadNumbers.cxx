@@ -103,6 +103,20 @@ TEST(TetrahedraRayCastBadNumbers, NodesOfTheOpacity)
     { "3 of the 6 nodes of the scalar opacity are not finite, the first of them (0.5, nan)" });
 }
 
+/** Negative opacities count as 0, as those of a function whose negative part is cut off. */
+TEST(TetrahedraRayCastBadNumbers, NegativeOpacities)
+{
+  ExpectWarning(
+    vtkVolumeMapper::COMPOSITE_BLEND,
+    [](vtkVolumeProperty* property) {
+      property->SetScalarOpacity(MakeOpacity({ { -1.0, -0.5 }, { 0.0, -0.5 }, { 1.0, 0.5 } }));
+    },
+    [](vtkVolumeProperty* property) {
+      property->SetScalarOpacity(MakeOpacity({ { -1.0, 0.0 }, { 0.5, 0.0 }, { 1.0, 0.5 } }));
+    },
+    { "2 of the 3 nodes of the scalar opacity are negative: negative opacities count as 0" });
+}
+
 TEST(TetrahedraRayCastBadNumbers, NodesOfTheColor)
 {
   for (const double bad : { NaN, Infinity, -Infinity })
