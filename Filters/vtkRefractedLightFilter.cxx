@@ -212,6 +212,18 @@ meniscus::LitTriangles CollectTriangles(vtkPolyData* data)
 }
 
 //------------------------------------------------------------------------------
+/** Light that each cell of the input receives through the interfaces of a stack. */
+std::vector<CellLight> GatherThrough(
+  const meniscus::RefractionStack& stack, vtkPolyData* input, bool oneSided)
+{
+  const meniscus::LitTriangles lit = CollectTriangles(input);
+  meniscus::StackLight gathering(stack, lit);
+  gathering.SetOneSided(oneSided);
+  const auto cells = static_cast<std::size_t>(input->GetNumberOfCells());
+  return gathering.Gather(cells, meniscus::ThreadedLoop);
+}
+
+//------------------------------------------------------------------------------
 vtkSmartPointer<vtkFloatArray> MakeZeros(const char* name, int components, vtkIdType tuples)
 {
   auto array =
@@ -502,10 +514,7 @@ int vtkRefractedLightFilter::RequestData(
     }
     if (!scene.GetStack().GetLinks().empty())
     {
-      const meniscus::LitTriangles lit = CollectTriangles(input);
-      meniscus::StackLight gathering(scene.GetStack(), lit);
-      gathering.SetOneSided(this->OneSided);
-      AddIrradiance(output, gathering.Gather(areas.size(), meniscus::ThreadedLoop), areas, nullptr,
+      AddIrradiance(output, GatherThrough(scene.GetStack(), input, this->OneSided), areas, nullptr,
         this->LightVectors);
       return 1;
     }

@@ -279,10 +279,9 @@ constexpr double PaneBottom = -0.703;
 constexpr double Floor = -1.9;
 constexpr double RimTop = 0.2;
 
-/** Floor, walls and objects on the floor. */
-vtkSmartPointer<vtkPolyData> MakeRoom()
+/** Checkered floor and four walls with a dark band. */
+void AddFloorAndWalls(vtkAppendPolyData* room)
 {
-  vtkNew<vtkAppendPolyData> room;
   constexpr int cells = 240; // also pixels of the light on the floor
   constexpr double tile = 2.0 * PoolHalf / 10.0;
   const auto floor = MakeSheet(PoolHalf, Floor, cells);
@@ -310,6 +309,13 @@ vtkSmartPointer<vtkPolyData> MakeRoom()
       });
     room->AddInputData(placed);
   }
+}
+
+/** Floor, walls and objects on the floor. */
+vtkSmartPointer<vtkPolyData> MakeRoom()
+{
+  vtkNew<vtkAppendPolyData> room;
+  AddFloorAndWalls(room);
   const auto add = [&room](vtkPolyDataAlgorithm* source, const Color& color,
                      const std::function<void(vtkTransform*)>& move)
   {

@@ -121,6 +121,25 @@ void AddObject(vtkAppendPolyData* well, vtkPolyDataAlgorithm* source, const doub
   well->AddInputData(object);
 }
 
+/** Refracts a ray at the water, a length `t` from the eye: where it goes on, and its direction. */
+void RefractAtSurface(const DemoWater& water, const double eye[3], const double direction[3],
+  double t, double start[3], double behind[3])
+{
+  for (int c = 0; c < 3; ++c)
+  {
+    start[c] = eye[c] + t * direction[c];
+  }
+  const auto normal = water.GetNormal(start[0], start[1]);
+  const double ratio = 1.0 / water.GetIndex();
+  const double cosine = vtkMath::Dot(direction, normal.data());
+  const double along = -ratio * cosine - std::sqrt(1.0 - ratio * ratio * (1.0 - cosine * cosine));
+  for (int c = 0; c < 3; ++c)
+  {
+    behind[c] = ratio * direction[c] + along * normal[static_cast<std::size_t>(c)];
+    start[c] += 1e-9 * behind[c];
+  }
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -304,21 +323,8 @@ vtkSmartPointer<vtkUnsignedCharArray> TraceDemoWell(vtkPolyData* well, const Dem
         if (id < 0 && t > 0.0)
         {
           double s[3];
-          for (int c = 0; c < 3; ++c)
-          {
-            s[c] = view.Eye[c] + t * direction[c];
-          }
-          const auto normal = water.GetNormal(s[0], s[1]);
-          const double ratio = 1.0 / water.GetIndex();
-          const double cosine = vtkMath::Dot(direction, normal.data());
-          const double along =
-            -ratio * cosine - std::sqrt(1.0 - ratio * ratio * (1.0 - cosine * cosine));
           double behind[3];
-          for (int c = 0; c < 3; ++c)
-          {
-            behind[c] = ratio * direction[c] + along * normal[static_cast<std::size_t>(c)];
-            s[c] += 1e-9 * behind[c];
-          }
+          RefractAtSurface(water, view.Eye, direction, t, s, behind);
           const bool inMesh = std::max(std::fabs(s[0]), std::fabs(s[1])) <= DemoWater::HalfSide;
           id = inMesh ? hit(s, behind, far) : -1;
         }

@@ -30,6 +30,74 @@ const char* NameFault(MembraneStatus status)
   return "The membrane has no usable triangle";
 }
 
+/** Points, triangles and normals that cannot be used as they are given. */
+void DescribeOmissions(
+  std::ostream& text, const MembraneReport& report, const MembraneArrays& arrays, std::size_t lost)
+{
+  const std::size_t triangles = arrays.Triangles.size() / 3;
+  const std::size_t points = arrays.Points.size() / 3;
+  if (report.Skipped() > 0)
+  {
+    text << report.Skipped() << " of " << triangles
+         << " membrane triangles skipped: " << report.ZeroArea << " without area, "
+         << report.NotFinite << " with coordinates that are not finite, " << report.OutOfRange
+         << " with points that do not exist, " << report.Duplicated << " repeated. ";
+  }
+  if (lost > 0)
+  {
+    text << lost << " of " << points
+         << " membrane points cannot be moved onto the exact membrane's zero set; they keep their "
+            "positions. ";
+  }
+  if (arrays.NormalsRejected)
+  {
+    text << "The membrane's normals do not have 3 components for each of its " << points
+         << " points; normals are computed. ";
+  }
+  else if (report.ComputedNormals > lost + report.DifferentNormals && !arrays.Normals.empty())
+  {
+    text << report.ComputedNormals - report.DifferentNormals << " of " << points
+         << " membrane normals are zero or not finite; these are computed. ";
+  }
+}
+
+/** Triangles and normals that do not fit their neighbours. */
+void DescribeMisfits(
+  std::ostream& text, const MembraneReport& report, std::size_t triangles, std::size_t points)
+{
+  if (report.TurnedFacets > 0)
+  {
+    text << report.TurnedFacets << " of " << triangles
+         << " membrane triangles have another winding than their neighbours; it is reversed. ";
+  }
+  if (report.TurnedNormals > 0)
+  {
+    text << report.TurnedNormals << " of " << points
+         << " membrane normals point to another side than their neighbours; they are reversed. ";
+  }
+  if (report.WildNormals > 0)
+  {
+    text << report.WildNormals << " of " << points
+         << " membrane normals deviate by more than 30 degrees from the triangles around them and "
+            "from the normals next to them; they are replaced by computed ones. ";
+  }
+  if (report.NonManifoldFacets > 0)
+  {
+    text << report.NonManifoldFacets << " of " << triangles
+         << " membrane triangles have an edge that three or more of them share, such as a fin on a "
+            "surface; the surface is taken to end there, and rays are refracted at each sheet "
+            "alone. ";
+  }
+  if (report.Normals.AreMost())
+  {
+    text
+      << report.Normals.Foreign << " of " << report.Normals.Examined
+      << " membrane normals do not fit the triangles around them, as if points had been moved and "
+         "normals had not; they are used nevertheless. To refract by the triangles themselves, "
+         "remove the normals or compute them by vtkPolyDataNormals. ";
+  }
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -101,7 +169,6 @@ bool SourceSurface::Report(SceneMessages& messages) const
 {
   const MembraneReport& report = this->GetMembrane().GetReport();
   const std::size_t triangles = this->Arrays.Triangles.size() / 3;
-  const std::size_t points = this->Arrays.Points.size() / 3;
   std::ostringstream text;
   if (!this->IsReady())
   {
@@ -110,61 +177,8 @@ bool SourceSurface::Report(SceneMessages& messages) const
     messages.Error = text.str();
     return false;
   }
-  if (report.Skipped() > 0)
-  {
-    text << report.Skipped() << " of " << triangles
-         << " membrane triangles skipped: " << report.ZeroArea << " without area, "
-         << report.NotFinite << " with coordinates that are not finite, " << report.OutOfRange
-         << " with points that do not exist, " << report.Duplicated << " repeated. ";
-  }
-  if (this->Lost > 0)
-  {
-    text << this->Lost << " of " << points
-         << " membrane points cannot be moved onto the exact membrane's zero set; they keep their "
-            "positions. ";
-  }
-  if (this->Arrays.NormalsRejected)
-  {
-    text << "The membrane's normals do not have 3 components for each of its " << points
-         << " points; normals are computed. ";
-  }
-  else if (report.ComputedNormals > this->Lost + report.DifferentNormals &&
-    !this->Arrays.Normals.empty())
-  {
-    text << report.ComputedNormals - report.DifferentNormals << " of " << points
-         << " membrane normals are zero or not finite; these are computed. ";
-  }
-  if (report.TurnedFacets > 0)
-  {
-    text << report.TurnedFacets << " of " << triangles
-         << " membrane triangles have another winding than their neighbours; it is reversed. ";
-  }
-  if (report.TurnedNormals > 0)
-  {
-    text << report.TurnedNormals << " of " << points
-         << " membrane normals point to another side than their neighbours; they are reversed. ";
-  }
-  if (report.WildNormals > 0)
-  {
-    text << report.WildNormals << " of " << points
-         << " membrane normals deviate by more than 30 degrees from the triangles around them and "
-            "from the normals next to them; they are replaced by computed ones. ";
-  }
-  if (report.NonManifoldFacets > 0)
-  {
-    text << report.NonManifoldFacets << " of " << triangles
-         << " membrane triangles have an edge that three or more of them share, such as a fin on a "
-            "surface; the surface is taken to end there, and rays are refracted at each sheet "
-            "alone. ";
-  }
-  if (report.Normals.AreMost())
-  {
-    text
-      << report.Normals.Foreign << " of " << report.Normals.Examined
-      << " membrane normals do not fit the triangles around them, as if points had been moved and "
-         "normals had not; they are used nevertheless. To refract by the triangles themselves, "
-         "remove the normals or compute them by vtkPolyDataNormals. ";
-  }
+  DescribeOmissions(text, report, this->Arrays, this->Lost);
+  DescribeMisfits(text, report, triangles, this->Arrays.Points.size() / 3);
   messages.Warning = text.str();
   return true;
 }

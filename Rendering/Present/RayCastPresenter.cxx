@@ -108,6 +108,27 @@ glm::ivec2 Shown(int first, int last, int origin, int length, int size)
     origin + static_cast<int>(std::ceil(last * scale)) };
 }
 
+/** Sets how the shader and the window add an image; the shader does it if it has what is below. */
+void SetBlending(vtkOpenGLState& state, vtkShaderProgram& shader, const RayCastOutput& output,
+  const int viewport[4], bool hasUnder)
+{
+  if (output.Selecting)
+  {
+    state.vtkglDisable(GL_BLEND);
+    shader.SetUniform3f("selectionValue", glm::value_ptr(output.SelectionValue));
+    return;
+  }
+  if (output.ColorBias > 0.0f)
+  {
+    shader.SetUniformf("colorBias", output.ColorBias);
+  }
+  const float corner[2] = { static_cast<float>(viewport[0]), static_cast<float>(viewport[1]) };
+  shader.SetUniform2f("corner", corner);
+  shader.SetUniformi("hasUnder", hasUnder ? 1 : 0);
+  state.SetEnumState(GL_BLEND, !hasUnder);
+  state.vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -446,23 +467,7 @@ std::string RayCastPresenter::Blend(const RayCastOutput& output, const int viewp
   // is up to 1.26 steps off. A picture that is composited later is rounded by the shader, which has
   // to know all of the sum.
   const bool hasUnder = !output.Selecting && this->Under.Update(this->Window, viewport);
-  if (output.Selecting)
-  {
-    state->vtkglDisable(GL_BLEND);
-    drawer->Program->SetUniform3f("selectionValue", glm::value_ptr(output.SelectionValue));
-  }
-  else
-  {
-    if (biased)
-    {
-      drawer->Program->SetUniformf("colorBias", output.ColorBias);
-    }
-    const float corner[2] = { static_cast<float>(viewport[0]), static_cast<float>(viewport[1]) };
-    drawer->Program->SetUniform2f("corner", corner);
-    drawer->Program->SetUniformi("hasUnder", hasUnder ? 1 : 0);
-    state->SetEnumState(GL_BLEND, !hasUnder);
-    state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  }
+  SetBlending(*state, *drawer->Program, output, viewport, hasUnder);
   // With one filter for both, a software rasteriser need not compute the size of a texel.
   const int filter = whole ? vtkTextureObject::Nearest : vtkTextureObject::Linear;
   this->Image->SetMagnificationFilter(filter);

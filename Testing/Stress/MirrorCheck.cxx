@@ -10,25 +10,9 @@ namespace meniscus::test
 namespace
 {
 
-constexpr int PointsPerCase = 24;
-
-// As in StackCheck.cxx.
-constexpr double Rest = 1e-8;
-constexpr double Same = 1e-5;
-constexpr double Marginal = 1e-3;
-constexpr double AtBorder = 1e-6;
-
 glm::dvec3 ReflectRay(const glm::dvec3& direction, const glm::dvec3& normal)
 {
   return direction - 2.0 * glm::dot(direction, normal) * normal;
-}
-
-bool HasSameBits(const VirtualVertex& a, const VirtualVertex& b)
-{
-  return std::memcmp(&a.Position, &b.Position, sizeof(a.Position)) == 0 &&
-    std::memcmp(&a.SightPoint, &b.SightPoint, sizeof(a.SightPoint)) == 0 &&
-    std::memcmp(&a.Depth, &b.Depth, sizeof(a.Depth)) == 0 && a.Facet == b.Facet &&
-    a.State == b.State && a.Orientation == b.Orientation;
 }
 
 //------------------------------------------------------------------------------
@@ -147,7 +131,7 @@ double MirrorChecker::GetCondition(const PatchHit& first, const glm::dvec3& poin
 // True if the reflected ray does not meet the mirror again, from either side: its end is in front.
 bool MirrorChecker::IsFree(const PatchHit& first, const glm::dvec3& direction, double length) const
 {
-  const double same = Same * this->Tracer->GetSize(first.Facet);
+  const double same = SamePlace * this->Tracer->GetSize(first.Facet);
   for (const bool fromFront : { true, false })
   {
     for (const PatchHit& hit :
@@ -185,36 +169,29 @@ void MirrorChecker::CheckPlanted(int i)
 //------------------------------------------------------------------------------
 void MirrorChecker::CheckPoint(int i, const glm::dvec3& point, const PatchHit* planted)
 {
-  ++this->Tally.Points;
   const glm::dvec3 world = point + this->Frame;
   const glm::dvec3 rounded = world - this->Frame;
   this->Points.push_back(world);
-  const std::int64_t undecided = this->Mirror.GetNumberOfUndecidedSearches();
-  std::vector<VirtualVertex> images;
-  const ImageState state = this->Mirror.FindImages(world, images);
-  const bool isDecided = this->Mirror.GetNumberOfUndecidedSearches() == undecided;
-  this->Tally.Undecided += !isDecided;
-  CurvedMembraneSolver::Memory memory;
-  const VirtualVertex first = this->Mirror.SolvePoint(world, memory);
-  if (state == ImageState::NotFinite || first.State == ImageState::NotFinite)
+  BothSearches<CurvedMembraneSolver, VirtualVertex, VirtualVertex> found;
+  if (!found.Run(this->Mirror, world, this->Tally))
   {
     this->Tally.Count(&RefractionTally::Failed, i, "no answer of a mirror", 0.0);
     return;
   }
-  const double same = Same * this->Tracer->GetSize(0) + 8.0 * this->Rounding;
+  const double same = SamePlace * this->Tracer->GetSize(0) + 8.0 * this->Rounding;
   const auto isKnown = [&](const glm::dvec3& sight)
   {
-    return std::any_of(images.begin(), images.end(),
+    return std::any_of(found.All.begin(), found.All.end(),
       [&](const VirtualVertex& image) { return glm::length(image.SightPoint - sight) < same; });
   };
-  for (const VirtualVertex& image : images)
+  for (const VirtualVertex& image : found.All)
   {
     this->CheckImage(i, rounded, image);
   }
-  if (first.State == ImageState::Found)
+  if (found.First.State == ImageState::Found)
   {
-    this->CheckImage(i, rounded, first);
-    if (isDecided && !isKnown(first.SightPoint))
+    this->CheckImage(i, rounded, found.First);
+    if (found.IsDecided && !isKnown(found.First.SightPoint))
     {
       this->Tally.Count(
         &RefractionTally::Wrong, i, "first image of a mirror is not among all images", 0.0);
@@ -226,9 +203,9 @@ void MirrorChecker::CheckPoint(int i, const glm::dvec3& point, const PatchHit* p
     if (!isKnown(planted->Position + this->Frame))
     {
       this->Tally.Count(
-        &RefractionTally::Missed, i, "missed image in a mirror; decided", isDecided);
+        &RefractionTally::Missed, i, "missed image in a mirror; decided", found.IsDecided);
     }
-    if (first.State != ImageState::Found)
+    if (found.First.State != ImageState::Found)
     {
       this->Tally.Count(&RefractionTally::Missed, i, "no first image in a mirror", 0.0);
     }
@@ -319,7 +296,7 @@ void MirrorChecker::CheckChains()
   for (std::size_t i = 0; i < count; ++i)
   {
     const glm::dvec3 world(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
-    if (!HasSameBits(serial[i], threaded[i]))
+    if (!IsSame(serial[i], threaded[i]))
     {
       this->Tally.Count(&RefractionTally::Wrong, static_cast<int>(i),
         "other bits of a mirror on two threads", serial[i].Depth);

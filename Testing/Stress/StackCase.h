@@ -34,8 +34,6 @@ struct StackCase
   glm::dvec3 Eye{ 0.0 };
   std::uint64_t Seed = 0;   ///< of the points
   double BorderShare = 0.1; ///< share of the points on rays through edges and corners of facets
-  /** Repeated facets show an image more than once. */
-  bool HasRepeatedFacets = false;
 };
 
 /** A mirror, an eye and points in front of it, in the same frame. */

@@ -12,7 +12,6 @@ namespace meniscus::test
 namespace
 {
 
-constexpr int PointsPerCase = 24;
 constexpr int RimPointsPerCase = 8;
 
 template <typename T>
@@ -21,14 +20,15 @@ bool HasSameBits(const T& a, const T& b)
   return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
 bool IsSame(const VirtualVertex& a, const VirtualVertex& b)
 {
   return HasSameBits(a.Position, b.Position) && HasSameBits(a.SightPoint, b.SightPoint) &&
     HasSameBits(a.Depth, b.Depth) && HasSameBits(a.Reflectance, b.Reflectance) &&
     a.Facet == b.Facet && a.State == b.State && a.Orientation == b.Orientation;
 }
-
-} // anonymous namespace
 
 //------------------------------------------------------------------------------
 reference::MembraneMesh PlaceMesh(
@@ -329,30 +329,23 @@ void StackChecker::CheckElsewhere(int i)
 void StackChecker::CheckPoint(
   int i, const glm::dvec3& point, const PatchHit* planted, std::size_t count)
 {
-  ++this->Tally.Points;
   const glm::dvec3 world = this->ToWorld(point);
   const glm::dvec3 rounded = world - this->Frame;
   this->Points.push_back(world);
-  const std::int64_t undecided = this->Solver.GetNumberOfUndecidedSearches();
-  std::vector<StackPath> images;
-  const ImageState state = this->Solver.FindImages(world, images);
-  const bool isDecided = this->Solver.GetNumberOfUndecidedSearches() == undecided;
-  this->Tally.Undecided += !isDecided;
-  StackSolver::Memory memory;
-  const StackVertex first = this->Solver.SolvePoint(world, memory);
-  if (state == ImageState::NotFinite || first.State == ImageState::NotFinite)
+  BothSearches<StackSolver, StackPath, StackVertex> found;
+  if (!found.Run(this->Solver, world, this->Tally))
   {
     this->Tally.Count(&RefractionTally::Failed, i, "no answer", 0);
     return;
   }
-  for (const StackPath& image : images)
+  for (const StackPath& image : found.All)
   {
     this->CheckImage(i, rounded, image);
   }
   const double size = this->GetSurface(0).Tracer->GetSize(0);
   const auto isKnown = [&](const glm::dvec3& sight, std::size_t passed)
   {
-    return std::any_of(images.begin(), images.end(),
+    return std::any_of(found.All.begin(), found.All.end(),
       [&](const StackPath& image)
       {
         return image.Count == passed &&
@@ -361,11 +354,11 @@ void StackChecker::CheckPoint(
               SamePlace * size + 8.0 * this->Rounding);
       });
   };
-  if (first.State == ImageState::Found)
+  if (found.First.State == ImageState::Found)
   {
-    const StackPath path = first.Passed > 0 ? memory.Path : StackPath();
+    const StackPath path = found.First.Passed > 0 ? found.Memory.Path : StackPath();
     this->CheckImage(i, rounded, path);
-    if (isDecided && !isKnown(first.SightPoint - this->Frame, path.Count))
+    if (found.IsDecided && !isKnown(found.First.SightPoint - this->Frame, path.Count))
     {
       this->Tally.Count(
         &RefractionTally::Wrong, i, "first image is not among all images", path.Count);
@@ -377,10 +370,10 @@ void StackChecker::CheckPoint(
     if (!isKnown(planted->Position, count))
     {
       this->Tally.Count(&RefractionTally::Missed, i,
-        isDecided ? "missed image behind interfaces" : "missed image, reported as undecided",
+        found.IsDecided ? "missed image behind interfaces" : "missed image, reported as undecided",
         count);
     }
-    if (first.State != ImageState::Found)
+    if (found.First.State != ImageState::Found)
     {
       this->Tally.Count(&RefractionTally::Missed, i, "no first image behind interfaces", count);
     }

@@ -9,16 +9,6 @@
 namespace meniscus::test
 {
 
-/** Two images are the same, and a crossing is the one at hand, within this part of a facet. */
-constexpr double SamePlace = 1e-5;
-
-/**
- * Cosines, roots of the radicand in Snell's law, and conditions of the map from the first surface
- * to the point: a value closer to zero is left open, because rounding or the merging of close
- * images decides there.
- */
-constexpr double Marginal = 1e-3;
-
 /** A surface of the case, with its patches as the tracer sees them. */
 struct TracedSurface
 {

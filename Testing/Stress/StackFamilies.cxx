@@ -351,7 +351,6 @@ StackCase MakeDirty(StressRandom& random)
   {
     AddDirt(mesh, random);
   }
-  test.HasRepeatedFacets = true;
   return test;
 }
 

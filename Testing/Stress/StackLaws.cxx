@@ -10,12 +10,6 @@ namespace meniscus::test
 namespace
 {
 
-// Positions on a patch: the rest of Newton's method is below 1e-10 of a facet (StackShot.cxx).
-constexpr double Rest = 1e-8;
-
-// Distance from a border, in facets, within which rounding decides.
-constexpr double AtBorder = 1e-6;
-
 // The round trip's goal, relative to the size of the scene.
 constexpr double RoundTrip = 1e-9;
 

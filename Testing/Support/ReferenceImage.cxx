@@ -153,7 +153,6 @@ public:
     Comparison& result = this->Result;
     result.Covered += pair.Covered;
     const double d = Difference(pair);
-    result.OffByTwoLevels += !(d <= 2.0 * GreyLevel);
     const bool wrong = !(d <= this->Tolerance);
     const bool mismatch = pair.Drawn && !pair.Covered;
     if ((wrong || mismatch) && this->IsSilhouette(x, y))

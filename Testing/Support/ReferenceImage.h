@@ -62,7 +62,6 @@ struct Comparison
   std::size_t BeyondRounding = 0;     // wrong, and by more than rounding of the vertices explains
   std::size_t Silhouettes = 0;        // error above the tolerance, on a silhouette
   std::size_t CoverageMismatches = 0; // drawn where the reference misses, silhouettes apart
-  std::size_t OffByTwoLevels = 0;     // error above 2/255, silhouettes included
   int WorstPixel[2] = { -1, -1 };
   std::array<double, 4> WorstImage{};
   std::array<double, 4> WorstReference{};

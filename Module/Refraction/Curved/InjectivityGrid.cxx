@@ -127,6 +127,20 @@ bool Covers(
   return covers;
 }
 
+// Extends a range to the slopes along an axis in a patch: those at corners and middles of its
+// sides, and the bulge of higher degree between them.
+void AddSlopes(const std::array<glm::dvec2, 6>& slope, int axis, float& lowest, float& highest)
+{
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const double mean = 0.5 * (slope[(k + 1) % 3][axis] + slope[(k + 2) % 3][axis]);
+    const double bend = slope[k + 3][axis] - mean;
+    const double rest = (1.0 + PatchRoots::HigherDegree) * std::fabs(bend);
+    lowest = std::min(lowest, RoundDown(std::min(slope[k][axis], mean + bend) - rest));
+    highest = std::max(highest, RoundUp(std::max(slope[k][axis], mean + bend) + rest));
+  }
+}
+
 }
 
 /** Refracted ray at a place of a patch. It meets the plane at height z in base - z slope. */
@@ -201,19 +215,9 @@ InjectivityGrid::Cell InjectivityGrid::Judge(
     cell.Low[2] = std::min(cell.Low[2], RoundDown(rays[i].Height - this->Bulge));
     cell.High[2] = std::max(cell.High[2], RoundUp(rays[i].Height + this->Bulge));
   }
-  for (int axis = 0; axis < 2; ++axis)
+  for (std::size_t axis = 0; axis < 2; ++axis)
   {
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      const double mean = 0.5 * (slope[(k + 1) % 3][axis] + slope[(k + 2) % 3][axis]);
-      const double bend = slope[k + 3][axis] - mean;
-      const double rest = (1.0 + PatchRoots::HigherDegree) * std::fabs(bend);
-      const double low = std::min(slope[k][axis], mean + bend) - rest;
-      const double high = std::max(slope[k][axis], mean + bend) + rest;
-      const auto i = static_cast<std::size_t>(axis);
-      cell.Low[i] = std::min(cell.Low[i], RoundDown(low));
-      cell.High[i] = std::max(cell.High[i], RoundUp(high));
-    }
+    AddSlopes(slope, static_cast<int>(axis), cell.Low[axis], cell.High[axis]);
   }
   const glm::dmat2 sides(this->Frame.Project(patch.Corner[1] - patch.Corner[0]),
     this->Frame.Project(patch.Corner[2] - patch.Corner[0]));

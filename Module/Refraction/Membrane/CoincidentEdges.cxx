@@ -87,6 +87,35 @@ glm::dvec3 Across(const glm::dvec3& vector, const glm::dvec3& along)
   return glm::normalize(vector - glm::dot(vector, along) * along);
 }
 
+/** Cosine of the angle by which two facets are turned against a plane, for any winding. */
+double GetFold(const std::vector<glm::dvec3>& positions, const PlacedEdge& a, const PlacedEdge& b)
+{
+  const auto at = [&positions](std::int32_t vertex) -> const glm::dvec3&
+  { return positions[static_cast<std::size_t>(vertex)]; };
+  const glm::dvec3& start = at(a.Vertex[0]);
+  const glm::dvec3 along = glm::normalize(at(a.Vertex[1]) - start);
+  return -glm::dot(Across(at(a.Opposite) - start, along), Across(at(b.Opposite) - start, along));
+}
+
+/** Replaces the vertices of the facets by the first of their set. Returns it for each vertex. */
+std::vector<std::int32_t> ReplaceJoined(
+  DisjointSets& joined, std::size_t vertices, std::vector<Facet>& facets)
+{
+  std::vector<std::int32_t> target(vertices);
+  for (std::size_t i = 0; i < target.size(); ++i)
+  {
+    target[i] = static_cast<std::int32_t>(joined.Find(i));
+  }
+  for (Facet& facet : facets)
+  {
+    for (std::int32_t& vertex : facet)
+    {
+      vertex = target[static_cast<std::size_t>(vertex)];
+    }
+  }
+  return target;
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -106,16 +135,7 @@ std::vector<std::int32_t> JoinCoincidentEdges(const std::vector<glm::dvec3>& pos
     return {};
   }
   const std::vector<PlacedEdge> edges = ListEdges(borders, places.Of);
-  const auto at = [&positions](std::int32_t vertex) -> const glm::dvec3&
-  { return positions[static_cast<std::size_t>(vertex)]; };
   const double smooth = std::cos(CreaseAngle);
-  // Cosine of the angle by which the facets are turned against a plane, for any winding.
-  const auto getFold = [&at](const PlacedEdge& a, const PlacedEdge& b)
-  {
-    const glm::dvec3& start = at(a.Vertex[0]);
-    const glm::dvec3 along = glm::normalize(at(a.Vertex[1]) - start);
-    return -glm::dot(Across(at(a.Opposite) - start, along), Across(at(b.Opposite) - start, along));
-  };
   DisjointSets joined(positions.size());
   bool hasJoined = false;
   for (std::size_t i = 0, next = 0; i < edges.size(); i = next)
@@ -131,7 +151,7 @@ std::vector<std::int32_t> JoinCoincidentEdges(const std::vector<glm::dvec3>& pos
     }
     const PlacedEdge& a = edges[i];
     const PlacedEdge& b = edges[i + 1];
-    const double fold = getFold(a, b);
+    const double fold = GetFold(positions, a, b);
     for (std::size_t end = 0; end < 2; ++end)
     {
       const glm::dvec3& first = normals[static_cast<std::size_t>(a.Vertex[end])];
@@ -145,23 +165,7 @@ std::vector<std::int32_t> JoinCoincidentEdges(const std::vector<glm::dvec3>& pos
       }
     }
   }
-  if (!hasJoined)
-  {
-    return {};
-  }
-  std::vector<std::int32_t> target(positions.size());
-  for (std::size_t i = 0; i < target.size(); ++i)
-  {
-    target[i] = static_cast<std::int32_t>(joined.Find(i));
-  }
-  for (Facet& facet : facets)
-  {
-    for (std::int32_t& vertex : facet)
-    {
-      vertex = target[static_cast<std::size_t>(vertex)];
-    }
-  }
-  return target;
+  return hasJoined ? ReplaceJoined(joined, positions.size(), facets) : std::vector<std::int32_t>();
 }
 
 }

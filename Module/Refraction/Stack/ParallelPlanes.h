@@ -35,8 +35,6 @@ public:
   /** The stack that the planes are of, unless there are none. */
   const RefractionStack& GetStack() const { return *this->Stack; }
 
-  std::size_t GetNumberOfPlanes() const { return this->IsEmpty() ? 0 : this->Layers.size() - 1; }
-
   /** True if a point, relative to the stack's origin, is finite and not too far to be solved. */
   bool IsInReach(const glm::dvec3& point) const;
 

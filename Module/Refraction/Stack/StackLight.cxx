@@ -71,6 +71,19 @@ public:
     *this = kept;
   }
 
+  /** Keeps the part in the beam, from the legs' origins to their ends; the last legs have none. */
+  void ClipToBeam(bool isLast)
+  {
+    this->Clip([](const ImagePoint& p) { return p.Behind; });
+    if (!isLast)
+    {
+      this->Clip([](const ImagePoint& p) { return p.InFront; });
+    }
+    this->Clip([](const ImagePoint& p) { return p.B.x; });
+    this->Clip([](const ImagePoint& p) { return p.B.y; });
+    this->Clip([](const ImagePoint& p) { return 1.0 - p.B.x - p.B.y; });
+  }
+
   /** Mean distance behind the leg's origin, of the corners. @pre there is a corner */
   double GetBehind() const
   {
@@ -302,6 +315,16 @@ StackLight::ImagePoint StackLight::Locate(
 }
 
 //------------------------------------------------------------------------------
+double StackLight::GetFacing(const Corners& corners) const
+{
+  const glm::dvec3 places[3] = { corners[0].Legs[0].Origin, corners[1].Legs[0].Origin,
+    corners[2].Legs[0].Origin };
+  const glm::dvec3 sight =
+    glm::normalize((places[0] + places[1] + places[2]) / 3.0 - this->Stack.GetEye());
+  return 0.5 * std::fabs(glm::dot(glm::cross(places[1] - places[0], places[2] - places[0]), sight));
+}
+
+//------------------------------------------------------------------------------
 void StackLight::Deposit(const Corners& corners, std::size_t leg, std::vector<Share>& shares) const
 {
   const bool isLast = leg + 1 == this->Stack.GetLinks().size();
@@ -327,14 +350,8 @@ void StackLight::Deposit(const Corners& corners, std::size_t leg, std::vector<Sh
   tube.StartHigh += slack;
   most += slack;
   const glm::dvec3 along = glm::normalize(sum);
-  const glm::dvec3 places[3] = { corners[0].Legs[0].Origin, corners[1].Legs[0].Origin,
-    corners[2].Legs[0].Origin };
-  const glm::dvec3 sight =
-    glm::normalize((places[0] + places[1] + places[2]) / 3.0 - this->Stack.GetEye());
-  const double area =
-    0.5 * std::fabs(glm::dot(glm::cross(places[1] - places[0], places[2] - places[0]), sight));
-  const double light =
-    area * (rays[0]->Transmittance + rays[1]->Transmittance + rays[2]->Transmittance) / 3.0;
+  const double light = this->GetFacing(corners) *
+    (rays[0]->Transmittance + rays[1]->Transmittance + rays[2]->Transmittance) / 3.0;
   const double before = (rays[0]->Before + rays[1]->Before + rays[2]->Before) / 3.0;
   this->Tree.Visit(tube, most,
     [&](std::int32_t item, const TubeRange&)
@@ -360,14 +377,7 @@ void StackLight::Deposit(const Corners& corners, std::size_t leg, std::vector<Sh
       {
         image.Add(Locate(rays, point, isCut ? normal : along));
       }
-      image.Clip([](const ImagePoint& p) { return p.Behind; });
-      if (!isLast)
-      {
-        image.Clip([](const ImagePoint& p) { return p.InFront; });
-      }
-      image.Clip([](const ImagePoint& p) { return p.B.x; });
-      image.Clip([](const ImagePoint& p) { return p.B.y; });
-      image.Clip([](const ImagePoint& p) { return 1.0 - p.B.x - p.B.y; });
+      image.ClipToBeam(isLast);
       const double share = 2.0 * image.GetArea();
       if (share > 0.0) // not for a NaN either, at a focus
       {

@@ -117,6 +117,8 @@ private:
   void Divide(std::int32_t facet, const Corners& corners, int depth, StackPath& path,
     std::vector<Share>& shares) const;
   static ImagePoint Locate(const BeamRays& rays, const glm::dvec3& point, const glm::dvec3& normal);
+  /** Area of a triangle of the first surface, seen from the light. */
+  double GetFacing(const Corners& corners) const;
   void Deposit(const Corners& corners, std::size_t leg, std::vector<Share>& shares) const;
 
   const RefractionStack& Stack;

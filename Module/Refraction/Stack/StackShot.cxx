@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace meniscus
 {
@@ -111,6 +112,21 @@ bool IsLast(const RefractionStack& stack, const StackPath& path, const glm::dvec
     (part >= Stagnation || IsLinear(stack, path, move));
 }
 
+// Place in the neighbouring patch where a move leaves the patch; none beyond the surface's border.
+std::optional<StackPlace> FindPlaceBeyond(
+  const RefractionStack& stack, const StackPlace& place, const glm::dvec2& move)
+{
+  const CurvedPatches& patches = stack.GetLinks()[0].Surface->GetPatches();
+  const int corner = FindOutside(place.B + move).Corner;
+  const glm::dvec3 flat = patches.GetPatch(place.Facet).GetFlatPoint(place.B + move);
+  const std::int32_t next = patches.GetNeighbour(place.Facet, corner);
+  if (next == CurvedPatches::NoFacet)
+  {
+    return std::nullopt;
+  }
+  return StackPlace{ next, patches.GetPatch(next).ProjectToFacet(flat) };
+}
+
 // Newton's method; `trace(place, off)` sets the path, with an error of the order of the square of
 // `off`.
 template <typename Tracing>
@@ -163,15 +179,12 @@ ShotEnd Iterate(const RefractionStack& stack, const StackTarget& target, StackPl
     if (isLast)
     {
       // Just outside of the patch: its neighbour takes over.
-      const CurvedPatches& patches = stack.GetLinks()[0].Surface->GetPatches();
-      const int corner = FindOutside(place.B + move).Corner;
-      const glm::dvec3 flat = patches.GetPatch(place.Facet).GetFlatPoint(place.B + move);
-      const std::int32_t next = patches.GetNeighbour(place.Facet, corner);
-      if (next == CurvedPatches::NoFacet)
+      const std::optional<StackPlace> beyond = FindPlaceBeyond(stack, place, move);
+      if (!beyond)
       {
         return ShotEnd::Outside;
       }
-      place = { next, patches.GetPatch(next).ProjectToFacet(flat) };
+      place = *beyond;
       continue;
     }
     Predict(path, move);

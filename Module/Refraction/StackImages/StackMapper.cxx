@@ -260,10 +260,10 @@ StackMapper::MappedPoint StackMapper::MakePoint(const Context& context, const Co
   {
     return this->MakeEnd(context, on.End, corner.B);
   }
-  StackPath path;
   if (on.Node >= 0)
   {
     const SubCellNode& node = context.Cell.Nodes[static_cast<std::size_t>(on.Node)];
+    StackPath path;
     const bool isTraced = this->TracePlace(context, node.B, context.Leg, path);
     if (on.Side >= 0)
     {
@@ -277,14 +277,23 @@ StackMapper::MappedPoint StackMapper::MakePoint(const Context& context, const Co
                context, isTraced ? &path : nullptr, node.B, primitive.GetPoint(weight), weight),
       Finding::Found };
   }
+  return this->MakeOnEdge(context, on, corner.B);
+}
+
+//------------------------------------------------------------------------------
+// Image of the point of a side of the primitive that the rays through an edge of the cell meet.
+StackMapper::MappedPoint StackMapper::MakeOnEdge(
+  const Context& context, const ClippedBoundary& on, const glm::dvec2& place) const
+{
   const auto side = static_cast<std::size_t>(on.Side);
-  const ObjectLine& line = primitive.Sides[side].Line;
+  const ObjectLine& line = context.Primitive.Sides[side].Line;
   const SubCellNode& a = context.Cell.Nodes[static_cast<std::size_t>((on.Edge + 1) % 3)];
   const SubCellNode& b = context.Cell.Nodes[static_cast<std::size_t>((on.Edge + 2) % 3)];
   const SubCellSide along(context.Patch, a.B, b.B);
   const SubCellNode& start = along.IsTurned() ? b : a;
   const SubCellNode& end = along.IsTurned() ? a : b;
   const double length = glm::length(line.Direction);
+  StackPath path;
   RefractedPoint from;
   bool isTraced = false;
   // Where a ray of the side does not pass, interpolation takes its place.
@@ -315,7 +324,7 @@ StackMapper::MappedPoint StackMapper::MakePoint(const Context& context, const Co
   {
     trace(zero);
   }
-  return this->MakeOnSide(context, side, corner.B, from, isTraced ? &path : nullptr);
+  return this->MakeOnSide(context, side, place, from, isTraced ? &path : nullptr);
 }
 
 //------------------------------------------------------------------------------

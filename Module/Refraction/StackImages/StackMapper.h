@@ -106,6 +106,8 @@ private:
   int GetOrientation(const CurvedPatch& patch, const Part& part, double area) const;
   bool EmitLine(const Context& context, const Polygon& polygon, ImageMesh& images) const;
   MappedPoint MakePoint(const Context& context, const Corner& corner) const;
+  MappedPoint MakeOnEdge(
+    const Context& context, const ClippedBoundary& on, const glm::dvec2& place) const;
   MappedPoint MakeOnSide(const Context& context, std::size_t side, const glm::dvec2& b,
     const RefractedPoint& from, const StackPath* path) const;
   MappedPoint MakeEnd(const Context& context, glm::length_t end, const glm::dvec2& b) const;

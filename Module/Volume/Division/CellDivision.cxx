@@ -113,7 +113,6 @@ DivisionStatus CellDivision::Divide(std::vector<CellPiece> pieces, const PointFi
   this->Counts.ReachedTolerance = !round.HasPending();
   this->Points = std::move(round.GetPoints());
   this->Counts.Pieces = static_cast<std::int64_t>(this->Pieces.size());
-  this->Counts.DividedEdges = this->Points.GetSize();
   this->Counts.UnresolvedEdges = round.GetNumberOfUnresolved();
   const double place = limits.Measure.OfPlace > 0.0 ? limits.Tolerance / limits.Measure.OfPlace
                                                     : std::numeric_limits<double>::infinity();

@@ -30,8 +30,6 @@ enum class DivisionStatus
 struct DivisionCounts
 {
   std::int64_t Pieces = 0;
-  /** Edges that were divided: as many as there are new points. */
-  std::int64_t DividedEdges = 0;
   /** Edges beyond the tolerance that were not divided, because of MostLevels. */
   std::int64_t UnresolvedEdges = 0;
   /** Cells that are folded: pieces with either orientation overlap by more than the tolerance. */

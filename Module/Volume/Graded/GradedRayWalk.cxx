@@ -52,6 +52,20 @@ bool Refract(const glm::dvec3& normal, double squaredIndex, double side, glm::dv
 }
 
 /**
+ * True if a ray is in a cell for so short a time that its arc is no higher than positions are
+ * rounded, and its way is a small share of the cell's size.
+ * @param square of the momentum.
+ */
+bool IsShortPassage(const GradedPassage& way, const GradedCell& cell, double time, double square)
+{
+  const double height = 0.125 * time * time;
+  constexpr double glideHeight = GradedPassage::GlideHeight;
+  constexpr double longest = GradedPassage::LongestShare;
+  return height * height * glm::dot(way.GetForce(), way.GetForce()) <= glideHeight * glideHeight &&
+    time * time * square <= longest * longest * cell.SquaredSize;
+}
+
+/**
  * Refracts a momentum by Snell's law in a flat cell in which n^2 differs between the ray's places
  * on its two sides: a jump of the index. Returns false for a total reflection.
  */
@@ -446,12 +460,7 @@ int GradedRayWalk::CrossCell(Path& path) const
   double time = Infinity;
   int face = way.FindExit(path.Steps, atRandom, shortTime, time);
   const double passed = cell.IsFlat ? 0.0 : sign * time;
-  const double height = 0.125 * passed * passed;
-  constexpr double glideHeight = GradedPassage::GlideHeight;
-  constexpr double longest = GradedPassage::LongestShare;
-  path.IsShort =
-    height * height * glm::dot(way.GetForce(), way.GetForce()) <= glideHeight * glideHeight &&
-    passed * passed * square <= longest * longest * cell.SquaredSize;
+  path.IsShort = IsShortPassage(way, cell, passed, square);
   path.NoteConstraints();
   path.Statistics->Glides += glides ? 1 : 0;
   if (path.IsSearching())

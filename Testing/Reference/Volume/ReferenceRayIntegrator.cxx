@@ -261,11 +261,7 @@ RayReport ReferenceRayIntegrator::FindSegments(
     }
     report.Gaps += !segments.empty() && whole.Begin > cursor + negligible;
     const double clipped = std::min(cursor, whole.End) - whole.Begin;
-    if (clipped > negligible)
-    {
-      ++report.Overlaps;
-      report.OverlapLength += clipped * lengthPerUnit;
-    }
+    report.Overlaps += clipped > negligible;
     const double begin = std::max({ cursor, whole.Begin, ray.Begin });
     const double end = std::min(whole.End, ray.End);
     cursor = std::max(cursor, whole.End);

@@ -40,11 +40,10 @@ struct CoveredSpan
 
 struct RayReport
 {
-  std::size_t Cells = 0;      // segments that contribute
-  std::size_t Gaps = 0;       // gaps between the first entry and the last exit
-  std::size_t Overlaps = 0;   // cells clipped by the overlap rule by more than rounding
-  double OverlapLength = 0.0; // world length that was clipped away
-  bool Ordered = false;       // order determined by shared faces, not by the depth of entry
+  std::size_t Cells = 0;    // segments that contribute
+  std::size_t Gaps = 0;     // gaps between the first entry and the last exit
+  std::size_t Overlaps = 0; // cells clipped by the overlap rule by more than rounding
+  bool Ordered = false;     // order determined by shared faces, not by the depth of entry
 };
 
 enum class RayClass
