@@ -230,4 +230,24 @@ TEST(WrongSides, AFinOnTheMembraneIsReported)
   EXPECT_TRUE(Contains(told->Text, "three or more of them share")) << told->Text;
 }
 
+// All rays lie in the plane of the water: neither is one of them refracted, nor are crossings with
+// the facets looked for.
+TEST(WrongSides, FlatWaterSeenEdgeOnShowsNothing)
+{
+  for (const double x : { 150.0, 1e6 })
+  {
+    const auto view = MakeAllImages(MakePoints({ { 10.0, -60.0, 5.0 } }), MakeWater(1.0));
+    view->SetEyePosition(x, 0.0, 0.0);
+    const auto told = UpdateAndObserve(view);
+    EXPECT_TRUE(Contains(told->Text, "No facet of the membrane faces the eye")) << told->Text;
+    vtkNew<vtkTruePositionFilter> truth;
+    truth->SetInputData(MakePoints({ { -10.0, 0.0, 5.0 } }));
+    truth->SetMembraneData(MakeWater(1.0));
+    truth->SetEyePosition(x, 0.0, 0.0);
+    truth->Update();
+    EXPECT_EQ(truth->GetOutput()->GetPointData()->GetArray("SeenState")->GetTuple1(0),
+      vtkTruePositionFilter::UNREFRACTED);
+  }
+}
+
 }
