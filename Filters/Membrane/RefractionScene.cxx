@@ -456,10 +456,13 @@ std::string RefractionScene::DescribeList(const RefractionStack& stack)
   const std::size_t behind = stack.GetNumberOfInterfaces() - stack.GetLinks().size();
   const bool isBehind = behind > this->InterfacesBehindEye;
   this->InterfacesBehindEye = behind;
-  this->Sees = !isBlocked;
+  const std::string reflection =
+    stack.GetLinks().empty() || isBlocked ? std::string() : DescribeReflection(stack);
+  this->Sees = !isBlocked && reflection.empty();
   this->EyeEnclosed = false;
   this->PointsBehind = 0;
   std::ostringstream text;
+  text << reflection;
   if (isBlocked)
   {
     text << "No ray from the eye passes the surfaces in the order of the list. Do they cross, does "

@@ -230,6 +230,27 @@ TEST(WrongSides, AFinOnTheMembraneIsReported)
   EXPECT_TRUE(Contains(told->Text, "three or more of them share")) << told->Text;
 }
 
+// An eye in the water, far to the side, in front of a pane of glass.
+TEST(WrongSides, TotalReflectionInAListIsNamed)
+{
+  const auto view = MakeAllImages(MakePoints({ { 10.0, -60.0, 5.0 } }), MakeWater(1.0));
+  view->AddMembraneData(MakeWater(1.0, -10.0));
+  view->SetEyePosition(1000.0, 300.0, 0.0);
+  vtkNew<vtkRefractingInterfaceCollection> pane;
+  pane->AddInterface(1.333, 1.5);
+  pane->AddInterface(1.5, 1.0);
+  view->SetInterfaces(pane);
+  const auto told = UpdateAndObserve(view);
+  EXPECT_EQ(view->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(told->Warnings, 1) << told->Text;
+  EXPECT_TRUE(Contains(told->Text, "Everything is totally reflected")) << told->Text;
+  EXPECT_TRUE(Contains(told->Text, "interface 1")) << told->Text;
+  view->SetEyePosition(20.0, 300.0, 10.0);
+  view->Update();
+  EXPECT_EQ(view->GetOutput()->GetNumberOfPoints(), 1);
+  EXPECT_EQ(told->Warnings, 1) << told->Text;
+}
+
 // All rays lie in the plane of the water: neither is one of them refracted, nor are crossings with
 // the facets looked for.
 TEST(WrongSides, FlatWaterSeenEdgeOnShowsNothing)
