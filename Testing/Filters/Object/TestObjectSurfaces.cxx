@@ -6,6 +6,8 @@
 
 #include "VTKTestBasics.h"
 
+#include <array>
+
 namespace
 {
 
@@ -254,6 +256,66 @@ TEST(ObjectSurfaces, PolygonsThatTouchOrCrossThemselvesAreSeen)
   const auto view = MakeView(crossed);
   view->Update();
   EXPECT_GT(view->GetOutput()->GetNumberOfPolys(), 0);
+}
+
+/** A concave polygon that is not plane, whose seventh corner repeats the sixth one. */
+vtkSmartPointer<vtkPolyData> MakeBent(double height, double size)
+{
+  std::vector<Point> corners;
+  for (const auto& [x, y, z] : { std::array{ 0.0, 0.0, 0.0 }, { 0.0, 0.2, 1.0 }, { 0.5, -0.1, 0.4 },
+         { 1.0, 0.0, 1.0 }, { 1.0, 0.2, 0.0 }, { 0.7, 0.1, 0.3 }, { 0.7, 0.1, 0.3 } })
+  {
+    corners.push_back({ size * x, height + size * y, size * z });
+  }
+  auto data = MakePoints(corners);
+  const vtkIdType ids[7] = { 0, 1, 2, 3, 4, 5, 6 };
+  vtkNew<vtkCellArray> polygons;
+  polygons->InsertNextCell(7, ids);
+  data->SetPolys(polygons);
+  return data;
+}
+
+/** Component by y of the sum of the area vectors of all triangles, at the true points. */
+double SumAreas(vtkPolyData* data)
+{
+  double sum = 0.0;
+  vtkDataArray* places = data->GetPointData()->GetArray("TruePosition");
+  for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
+  {
+    vtkCell* cell = data->GetCell(i);
+    EXPECT_EQ(cell->GetNumberOfPoints(), 3);
+    glm::dvec3 corner[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      places->GetTuple(cell->GetPointId(k), &corner[k].x);
+    }
+    sum += 0.5 * glm::cross(corner[1] - corner[0], corner[2] - corner[0]).y;
+  }
+  return sum;
+}
+
+// VTK's division leaves out parts of polygons that are not plane.
+TEST(ObjectSurfaces, BentPolygonsAreDividedWhole)
+{
+  // Half the sum of the cross products of the corners, without the repeated one.
+  const double area = 900.0 * 0.55;
+  const auto view = MakeView(MakeBent(-20.0, 30.0));
+  view->TrueGeometryOn();
+  view->CloseSeamsOff();
+  for (const bool all : { true, false })
+  {
+    view->SetImages(
+      all ? vtkRefractedGeometryFilter::ALL_IMAGES : vtkRefractedGeometryFilter::FIRST_IMAGE);
+    view->Update();
+    EXPECT_NEAR(SumAreas(view->GetOutput()), area, 1e-9);
+  }
+  // A membrane that hardly refracts, seen from above, shows what lies below each of its triangles.
+  const auto through = MakeView(MakePoints({ { 44.0, -40.0, 34.0 } }));
+  through->SetMembraneData(MakeBent(0.0, 60.0));
+  through->SetInteriorIndexOfRefraction(1.001);
+  through->SetEyePosition(44.0, 1e4, 34.0);
+  through->Update();
+  EXPECT_EQ(through->GetOutput()->GetNumberOfPoints(), 1);
 }
 
 TEST(ObjectSurfaces, MembranesWithAHoleInAPolygonRefract)
