@@ -23,6 +23,7 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkExecutive.h"
 #include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -179,11 +180,12 @@ std::vector<CellLight> GatherLight(
 
 //------------------------------------------------------------------------------
 /**
- * Triangles of the polygons and strips, as AreaOf divides them; without cells that refer to points
- * that do not exist or are not finite.
+ * Triangles of the polygons and strips of a surface without concave polygons, as AreaOf divides
+ * them; without cells that refer to points that do not exist or are not finite.
  */
-meniscus::LitTriangles CollectTriangles(vtkPolyData* data)
+meniscus::LitTriangles CollectTriangles(const meniscus::ObjectSurface& surface)
 {
+  vtkPolyData* data = surface.Data;
   meniscus::LitTriangles lit;
   lit.Points.resize(static_cast<std::size_t>(data->GetNumberOfPoints()));
   for (std::size_t i = 0; i < lit.Points.size(); ++i)
@@ -205,7 +207,7 @@ meniscus::LitTriangles CollectTriangles(vtkPolyData* data)
         const bool isTurned = isStrip && i % 2 == 1;
         lit.Triangles.push_back(
           { first, points[isTurned ? i : i - 1], points[isTurned ? i - 1 : i] });
-        lit.Cells.push_back(cell);
+        lit.Cells.push_back(surface.Cells ? surface.Cells->GetValue(cell) : cell);
       }
     });
   return lit;
@@ -502,7 +504,7 @@ int vtkRefractedLightFilter::RequestData(
     }
     if (!scene.GetStack().GetLinks().empty())
     {
-      const meniscus::LitTriangles lit = CollectTriangles(input);
+      const meniscus::LitTriangles lit = CollectTriangles(this->Internals->Surfaces.Get(input));
       meniscus::StackLight gathering(scene.GetStack(), lit);
       gathering.SetOneSided(this->OneSided);
       AddIrradiance(output, gathering.Gather(areas.size(), meniscus::ThreadedLoop), areas, nullptr,

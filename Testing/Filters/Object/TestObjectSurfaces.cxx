@@ -5,6 +5,7 @@
 #include "RefractedGeometryTestHelpers.h"
 
 #include "VTKTestBasics.h"
+#include "vtkRefractingInterfaceCollection.h"
 
 #include <array>
 
@@ -316,6 +317,32 @@ TEST(ObjectSurfaces, BentPolygonsAreDividedWhole)
   through->SetEyePosition(44.0, 1e4, 34.0);
   through->Update();
   EXPECT_EQ(through->GetOutput()->GetNumberOfPoints(), 1);
+}
+
+// Through a list, as through one surface, each cell has the light of its area.
+TEST(ObjectSurfaces, ConcavePolygonsHaveTheirLight)
+{
+  for (const int interfaces : { 1, 2 })
+  {
+    vtkNew<vtkRefractedLightFilter> light;
+    light->SetInputData(MakeConcave());
+    light->SetLightPosition(0.0, 1.0, 0.0);
+    vtkNew<vtkRefractingInterfaceCollection> list;
+    list->AddInterface(1.0, 1.333);
+    light->AddMembraneData(MakeFlatMembrane());
+    if (interfaces > 1)
+    {
+      list->AddInterface(1.333, 1.5);
+      auto lower = MakeGrid(3, 200.0, -10.0);
+      light->AddMembraneData(lower);
+    }
+    light->SetInterfaces(list);
+    ExpectQuiet(light);
+    vtkDataArray* irradiance = light->GetOutput()->GetCellData()->GetArray("RefractionIrradiance");
+    ASSERT_EQ(irradiance->GetNumberOfTuples(), 3);
+    EXPECT_GT(irradiance->GetTuple1(0), 0.9);
+    EXPECT_NEAR(irradiance->GetTuple1(1), irradiance->GetTuple1(0), 1e-4);
+  }
 }
 
 TEST(ObjectSurfaces, MembranesWithAHoleInAPolygonRefract)
