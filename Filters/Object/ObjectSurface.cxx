@@ -296,6 +296,22 @@ vtkSmartPointer<vtkIdTypeArray> Take(vtkDataSetAttributes* attributes, const cha
   return ids;
 }
 
+/** True if an id below `count` is there twice: points of a grid on several of its sides. */
+bool AreRepeated(vtkIdTypeArray* ids, vtkIdType count)
+{
+  std::vector<bool> isKnown(static_cast<std::size_t>(count), false);
+  for (vtkIdType i = 0; ids && i < ids->GetNumberOfValues(); ++i)
+  {
+    const auto id = static_cast<std::size_t>(ids->GetValue(i));
+    if (isKnown[id])
+    {
+      return true;
+    }
+    isKnown[id] = true;
+  }
+  return false;
+}
+
 void ExtractSurface(vtkDataSet* input, ObjectSurface& surface)
 {
   vtkNew<vtkDataSetSurfaceFilter> faces;
@@ -309,6 +325,10 @@ void ExtractSurface(vtkDataSet* input, ObjectSurface& surface)
   surface.Points = Take(surface.Data->GetPointData(), PointIds);
   surface.Cells = Take(surface.Data->GetCellData(), CellIds);
   UnmarkGlobalIds(surface.Data->GetCellData());
+  if (AreRepeated(surface.Points, input->GetNumberOfPoints()))
+  {
+    UnmarkGlobalIds(surface.Data->GetPointData());
+  }
 }
 
 /** Replaces the ids in an array of a name by those that `ids` has for them. */

@@ -7,7 +7,10 @@
 #include "VTKTestBasics.h"
 #include "vtkRefractingInterfaceCollection.h"
 
+#include <vtkImageData.h>
+
 #include <array>
+#include <set>
 
 namespace
 {
@@ -343,6 +346,30 @@ TEST(ObjectSurfaces, ConcavePolygonsHaveTheirLight)
     EXPECT_GT(irradiance->GetTuple1(0), 0.9);
     EXPECT_NEAR(irradiance->GetTuple1(1), irradiance->GetTuple1(0), 1e-4);
   }
+}
+
+// Points of a grid that are on several of its sides are there several times.
+TEST(ObjectSurfaces, RepeatedPointsOfAGridHaveNoGlobalIds)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(3, 3, 3);
+  image->SetSpacing(10.0, 10.0, 10.0);
+  image->SetOrigin(-10.0, -40.0, -10.0);
+  image->GetPointData()->SetGlobalIds(
+    MakeArray<vtkIdTypeArray>("Rank", 27, [](vtkIdType i) { return 100 + i; }));
+  const auto view = MakeView(image);
+  view->SetImagesToFirstImage();
+  view->Update();
+  std::set<double> ids;
+  vtkPointData* data = view->GetOutput()->GetPointData();
+  vtkDataArray* ranks = data->GetArray("Rank");
+  ASSERT_NE(ranks, nullptr);
+  for (const double rank : ValuesOf(ranks))
+  {
+    ids.insert(rank);
+  }
+  const bool areUnique = ids.size() == static_cast<std::size_t>(ranks->GetNumberOfTuples());
+  EXPECT_EQ(data->GetGlobalIds() != nullptr, areUnique);
 }
 
 TEST(ObjectSurfaces, MembranesWithAHoleInAPolygonRefract)
