@@ -11,6 +11,7 @@
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/RefractionScene.h"
 #include "Filters/Object/ObjectSurface.h"
+#include "Filters/Output/JoinedBlocks.h"
 #include "Refraction/Stack/StackLight.h"
 
 #include "vtkRefractedGeometryFilter.h"
@@ -319,6 +320,7 @@ class vtkRefractedLightFilter::vtkInternals
 {
 public:
   meniscus::ObjectSurfaces Surfaces;
+  meniscus::JoinedBlocks Joined;
   /** Several interfaces, with the light in place of the eye. */
   meniscus::RefractionScene Scene{ meniscus::RefractionScene::Fitting::Exact,
     meniscus::RefractionScene::Use::Rays };
@@ -376,6 +378,12 @@ vtkRefractedLightFilter::~vtkRefractedLightFilter() = default;
 void vtkRefractedLightFilter::SetMembraneData(vtkPolyData* membrane)
 {
   this->SetInputData(1, membrane);
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkRefractedLightFilter::GetOutput()
+{
+  return this->Internals->Joined.Get(this->GetOutputDataObject(0));
 }
 
 //------------------------------------------------------------------------------

@@ -125,6 +125,30 @@ TEST(ObjectSurfaces, BlocksAreOneOutputOrSeveral)
   EXPECT_EQ(view->GetOutput()->GetNumberOfPolys(), 4);
 }
 
+TEST(ObjectSurfaces, LitBlocksAreOneOutputOrSeveral)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, MakeHexahedra());
+  blocks->SetBlock(2, MakeGrid(3, 20.0, -10.0));
+  vtkNew<vtkRefractedLightFilter> light;
+  light->SetInputDataObject(0, blocks);
+  light->SetMembraneData(MakeFlatMembrane());
+  light->SetLightPosition(0.0, 1.0, 0.0);
+  ExpectQuiet(light);
+  ASSERT_TRUE(vtkMultiBlockDataSet::SafeDownCast(light->GetOutputDataObject(0)));
+  ASSERT_NE(light->GetOutput(), nullptr);
+  EXPECT_EQ(light->GetOutput()->GetNumberOfPolys(), 14);
+  EXPECT_NE(light->GetOutput()->GetCellData()->GetArray("RefractionIrradiance"), nullptr);
+}
+
+TEST(ObjectSurfaces, NoBlocksAreAnEmptyOutput)
+{
+  const auto view = MakeView(vtkNew<vtkMultiBlockDataSet>());
+  ExpectQuiet(view);
+  ASSERT_NE(view->GetOutput(), nullptr);
+  EXPECT_EQ(view->GetOutput()->GetNumberOfPoints(), 0);
+}
+
 /** A polygon in the shape of a U, and a square with one of its corners pushed inside. */
 vtkSmartPointer<vtkPolyData> MakeConcave()
 {
