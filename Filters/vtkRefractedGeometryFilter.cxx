@@ -11,10 +11,7 @@
 #include "Filters/Output/VirtualPolyData.h"
 #include "Refraction/Images/EdgeSubdivision.h"
 
-#include "vtkAppendPolyData.h"
 #include "vtkCamera.h"
-#include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"
 #include "vtkImplicitFunction.h"
@@ -375,24 +372,7 @@ void vtkRefractedGeometryFilter::SetMembraneData(vtkPolyData* membrane)
 //------------------------------------------------------------------------------
 vtkPolyData* vtkRefractedGeometryFilter::GetOutput()
 {
-  auto* blocks = vtkCompositeDataSet::SafeDownCast(this->GetOutputDataObject(0));
-  if (!blocks)
-  {
-    return this->Superclass::GetOutput();
-  }
-  if (this->Internals->JoinedTime < blocks->GetMTime())
-  {
-    vtkNew<vtkAppendPolyData> append;
-    const auto block = vtk::TakeSmartPointer(blocks->NewIterator());
-    for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
-    {
-      append->AddInputData(vtkPolyData::SafeDownCast(block->GetCurrentDataObject()));
-    }
-    append->Update();
-    this->Internals->Joined->ShallowCopy(append->GetOutput());
-    this->Internals->JoinedTime = blocks->GetMTime();
-  }
-  return this->Internals->Joined;
+  return this->Internals->Joined.Get(this->GetOutputDataObject(0));
 }
 
 //------------------------------------------------------------------------------

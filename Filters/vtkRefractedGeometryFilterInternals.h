@@ -9,6 +9,7 @@
 #include "Filters/Membrane/RefractionScene.h"
 #include "Filters/Object/ObjectSurface.h"
 #include "Filters/Object/ViewSelection.h"
+#include "Filters/Output/JoinedBlocks.h"
 #include "Filters/Output/OutputArrays.h"
 #include "Filters/Solver/SolvedBlock.h"
 
@@ -52,8 +53,7 @@ public:
   /** Index behind each interface that the last run refracted at, by the index in front of all. */
   std::vector<double> RelativeIndices;
   std::list<meniscus::SolvedBlock> Blocks;
-  vtkNew<vtkPolyData> Joined; ///< blocks of a composite output together, and the output's time
-  vtkMTimeType JoinedTime = 0;
+  meniscus::JoinedBlocks Joined;
 
   vtkTypeInt64 SolvedVertices = 0;
   vtkTypeInt64 FailedSolves = 0;

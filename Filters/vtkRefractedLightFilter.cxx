@@ -11,6 +11,7 @@
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/RefractionScene.h"
 #include "Filters/Object/ObjectSurface.h"
+#include "Filters/Output/JoinedBlocks.h"
 #include "Refraction/Stack/StackLight.h"
 
 #include "vtkRefractedGeometryFilter.h"
@@ -23,6 +24,7 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkExecutive.h"
 #include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -179,11 +181,12 @@ std::vector<CellLight> GatherLight(
 
 //------------------------------------------------------------------------------
 /**
- * Triangles of the polygons and strips, as AreaOf divides them; without cells that refer to points
- * that do not exist or are not finite.
+ * Triangles of the polygons and strips of a surface without concave polygons, as AreaOf divides
+ * them; without cells that refer to points that do not exist or are not finite.
  */
-meniscus::LitTriangles CollectTriangles(vtkPolyData* data)
+meniscus::LitTriangles CollectTriangles(const meniscus::ObjectSurface& surface)
 {
+  vtkPolyData* data = surface.Data;
   meniscus::LitTriangles lit;
   lit.Points.resize(static_cast<std::size_t>(data->GetNumberOfPoints()));
   for (std::size_t i = 0; i < lit.Points.size(); ++i)
@@ -205,7 +208,7 @@ meniscus::LitTriangles CollectTriangles(vtkPolyData* data)
         const bool isTurned = isStrip && i % 2 == 1;
         lit.Triangles.push_back(
           { first, points[isTurned ? i : i - 1], points[isTurned ? i - 1 : i] });
-        lit.Cells.push_back(cell);
+        lit.Cells.push_back(surface.Cells ? surface.Cells->GetValue(cell) : cell);
       }
     });
   return lit;
@@ -213,13 +216,12 @@ meniscus::LitTriangles CollectTriangles(vtkPolyData* data)
 
 //------------------------------------------------------------------------------
 /** Light that each cell of the input receives through the interfaces of a stack. */
-std::vector<CellLight> GatherThrough(
-  const meniscus::RefractionStack& stack, vtkPolyData* input, bool oneSided)
+std::vector<CellLight> GatherThrough(const meniscus::RefractionStack& stack,
+  const meniscus::ObjectSurface& surface, std::size_t cells, bool oneSided)
 {
-  const meniscus::LitTriangles lit = CollectTriangles(input);
+  const meniscus::LitTriangles lit = CollectTriangles(surface);
   meniscus::StackLight gathering(stack, lit);
   gathering.SetOneSided(oneSided);
-  const auto cells = static_cast<std::size_t>(input->GetNumberOfCells());
   return gathering.Gather(cells, meniscus::ThreadedLoop);
 }
 
@@ -329,6 +331,7 @@ class vtkRefractedLightFilter::vtkInternals
 {
 public:
   meniscus::ObjectSurfaces Surfaces;
+  meniscus::JoinedBlocks Joined;
   /** Several interfaces, with the light in place of the eye. */
   meniscus::RefractionScene Scene{ meniscus::RefractionScene::Fitting::Exact,
     meniscus::RefractionScene::Use::Rays };
@@ -386,6 +389,12 @@ vtkRefractedLightFilter::~vtkRefractedLightFilter() = default;
 void vtkRefractedLightFilter::SetMembraneData(vtkPolyData* membrane)
 {
   this->SetInputData(1, membrane);
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkRefractedLightFilter::GetOutput()
+{
+  return this->Internals->Joined.Get(this->GetOutputDataObject(0));
 }
 
 //------------------------------------------------------------------------------
@@ -514,8 +523,9 @@ int vtkRefractedLightFilter::RequestData(
     }
     if (!scene.GetStack().GetLinks().empty())
     {
-      AddIrradiance(output, GatherThrough(scene.GetStack(), input, this->OneSided), areas, nullptr,
-        this->LightVectors);
+      const std::vector<CellLight> light = GatherThrough(
+        scene.GetStack(), this->Internals->Surfaces.Get(input), areas.size(), this->OneSided);
+      AddIrradiance(output, light, areas, nullptr, this->LightVectors);
       return 1;
     }
   }

@@ -145,6 +145,15 @@ public:
   int GetNumberOfMembranes();
   /** @} */
 
+  /** @{ */
+  /**
+   * The lit geometry. For composite data, whose output is composite too (GetOutputDataObject()), it
+   * has all blocks in one object, with the arrays that all of them have. Call Update() before.
+   */
+  vtkPolyData* GetOutput();
+  vtkPolyData* GetOutput(int port) { return port == 0 ? this->GetOutput() : nullptr; }
+  /** @} */
+
   /** Modification time of this filter and of the interfaces. */
   vtkMTimeType GetMTime() override;
 

@@ -56,6 +56,7 @@ public:
   /** Last time that an object's shader changed. */
   vtkTimeStamp ShaderTime;
   std::string LastLightWarning;
+  std::size_t ReportedInterfaces = 0; ///< number of interfaces in the last picture
   vtkMTimeType MediumFaultTime = 0;
   vtkTypeInt64 SkippedLights = 0;
 

@@ -8,6 +8,7 @@
 #include "Rendering/Pass/ObjectShader.h"
 #include "Rendering/Pass/OpaqueObjects.h"
 #include "Rendering/Pass/PictureSize.h"
+#include "Rendering/Pass/PlateUniforms.h"
 #include "Rendering/Pass/ViewBounds.h"
 #include "Rendering/Property/MediumUniforms.h"
 #include "Rendering/RefractionPassInternals.h"
@@ -369,6 +370,19 @@ void vtkRefractionPass::DrawSurface(
 }
 
 //------------------------------------------------------------------------------
+void vtkRefractionPass::ReportPlates(std::size_t interfaces)
+{
+  if (interfaces > meniscus::LargestNumberOfPlates &&
+    interfaces != this->Internals->ReportedInterfaces)
+  {
+    vtkWarningMacro("Reflections at the first "
+      << meniscus::LargestNumberOfPlates << " of " << interfaces
+      << " interfaces are computed; those at the others are left out.");
+  }
+  this->Internals->ReportedInterfaces = interfaces;
+}
+
+//------------------------------------------------------------------------------
 /** Composites the membrane's pixels over the framebuffer of the scene. */
 void vtkRefractionPass::Compose(
   vtkRenderer* renderer, vtkOpenGLRenderWindow* window, vtkActor* membrane)
@@ -391,6 +405,7 @@ void vtkRefractionPass::Compose(
     "the same numbers");
   look.Reflectance = static_cast<Model>(this->ReflectanceModel);
   look.RelativeIndices = internals.Refractions.FirstOf(membrane).ListRelativeIndices();
+  this->ReportPlates(look.RelativeIndices.size());
   const std::string error = internals.Composer.Compose(renderer, window, look);
   if (!error.empty())
   {

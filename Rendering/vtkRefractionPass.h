@@ -38,9 +38,10 @@
  * Behind several interfaces (vtkRefractedGeometryFilter::SetInterfaces()), T also contains
  * Fresnel's transmittance of the interfaces behind the first one that are in front of the object,
  * from the array InnerReflectance, with either model of the reflectance. The share of R and of the
- * background is the reflectance of all interfaces (at most the first 16). It includes light that is
- * reflected between them, as for parallel plates: a pane in air reflects 0.077 of the light at
- * vertical incidence. The membrane's actor shows the surface of the first interface.
+ * background is the reflectance of all interfaces; of more than 16, the first 16 count, with a
+ * warning. It includes light that is reflected between them, as for parallel plates: a pane in air
+ * reflects 0.077 of the light at vertical incidence. The membrane's actor shows the surface of the
+ * first interface.
  *
  * Deviation from the thesis: T is drawn to a separate image, which is then composited at the
  * membrane's pixels, instead of using the stencil buffer of the window. The result is therefore the
@@ -388,6 +389,7 @@ private:
   void DrawSurface(
     vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane, const vtkRecti& part);
   void Compose(vtkRenderer* renderer, vtkOpenGLRenderWindow* window, vtkActor* membrane);
+  void ReportPlates(std::size_t interfaces);
   void UpdateMedium();
   void ChooseLighting();
   void UpdateLighting(vtkRenderer* renderer, vtkActor* membrane);

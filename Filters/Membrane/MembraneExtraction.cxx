@@ -3,7 +3,7 @@
 #include "Filters/Membrane/MembraneExtraction.h"
 
 #include "Filters/Common/CellLoop.h"
-#include "Filters/Common/TouchingPolygon.h"
+#include "Filters/Common/PolygonDivision.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -17,7 +17,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <vector>
 
 namespace meniscus
 {
@@ -144,46 +146,74 @@ private:
 
   void SplitPolygons()
   {
-    this->PolygonCells->SetName(SourceName);
+    vtkNew<vtkIdTypeArray> numbers;
+    numbers->SetName(SourceName);
+    numbers->SetNumberOfValues(this->Polygons->GetNumberOfCells());
+    std::iota(numbers->Begin(), numbers->End(), vtkIdType(0));
     vtkNew<vtkPolyData> polygons;
     polygons->SetPoints(this->Surface->GetPoints());
     polygons->SetPolys(this->Polygons);
-    polygons->GetCellData()->AddArray(this->PolygonCells);
+    polygons->GetCellData()->AddArray(numbers);
     vtkNew<vtkTriangleFilter> split;
     split->SetInputData(polygons);
     split->Update();
     vtkPolyData* triangles = split->GetOutput();
-    const auto* cells =
-      vtkIdTypeArray::SafeDownCast(triangles->GetCellData()->GetArray(SourceName));
-    this->SplitCells = cells;
-    this->ForEachCell(triangles->GetPolys(), 0, &Extraction::AddSplitTriangle);
-
-    // A polygon that yielded no triangle touches itself or has no area.
-    std::vector<std::int64_t> found = this->Arrays.CellIds;
-    std::sort(found.begin(), found.end());
+    auto* sources = vtkIdTypeArray::SafeDownCast(triangles->GetCellData()->GetArray(SourceName));
+    std::vector<std::vector<vtkIdType>> parts(
+      static_cast<std::size_t>(this->Polygons->GetNumberOfCells()));
+    vtkIdType triangle = 0;
+    meniscus::ForEachCell(triangles->GetPolys(),
+      [&](vtkIdType count, const vtkIdType* ids)
+      {
+        const vtkIdType number = sources ? sources->GetValue(triangle++) : 0;
+        std::vector<vtkIdType>& part = parts[static_cast<std::size_t>(number)];
+        part.insert(part.end(), ids, ids + (count == 3 ? 3 : 0));
+      });
     vtkIdType polygon = 0;
     meniscus::ForEachCell(this->Polygons,
       [&](vtkIdType count, const vtkIdType* ids)
       {
-        const vtkIdType cell = this->PolygonCells->GetValue(polygon++);
-        if (!std::binary_search(found.begin(), found.end(), cell))
-        {
-          const bool isDivided = DivideTouchingPolygon(this->Surface->GetPoints(), count, ids,
-            [&](const vtkIdType* three) { this->AddTriangle(cell, three[0], three[1], three[2]); });
-          if (!isDivided)
-          {
-            this->AddTriangle(cell, ids[0], ids[0], ids[0]);
-          }
-        }
+        const auto number = static_cast<std::size_t>(polygon);
+        this->AddDivided(this->PolygonCells->GetValue(polygon++), count, ids, parts[number]);
       });
   }
 
-  void AddSplitTriangle(vtkIdType triangle, vtkIdType count, const vtkIdType* ids)
+  /** Adds the triangles of a polygon that vtkTriangleFilter has made, or others if some lack. */
+  void AddDivided(
+    vtkIdType cell, vtkIdType count, const vtkIdType* ids, const std::vector<vtkIdType>& triangles)
   {
-    if (count == 3 && this->SplitCells)
+    const auto addTriangle = [this, cell](const vtkIdType* three)
+    { this->AddTriangle(cell, three[0], three[1], three[2]); };
+    if (this->IsComplete(count, ids, triangles))
     {
-      this->AddTriangle(this->SplitCells->GetValue(triangle), ids[0], ids[1], ids[2]);
+      for (std::size_t i = 0; i < triangles.size(); i += 3)
+      {
+        addTriangle(triangles.data() + i);
+      }
     }
+    else if (!DividePolygon(this->Surface->GetPoints(), count, ids, addTriangle))
+    {
+      this->AddTriangle(cell, ids[0], ids[0], ids[0]);
+    }
+  }
+
+  bool IsComplete(
+    vtkIdType count, const vtkIdType* ids, const std::vector<vtkIdType>& triangles) const
+  {
+    const auto get = [this](vtkIdType id)
+    {
+      const double* place = this->Arrays.Points.data() + 3 * id;
+      return glm::dvec3(place[0], place[1], place[2]);
+    };
+    std::vector<glm::dvec3> corners;
+    std::transform(ids, ids + count, std::back_inserter(corners), get);
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < triangles.size(); i += 3)
+    {
+      const glm::dvec3 first = get(triangles[i]);
+      sum += glm::cross(get(triangles[i + 1]) - first, get(triangles[i + 2]) - first);
+    }
+    return !triangles.empty() && IsCompleteDivision(corners, sum);
   }
 
   void SortByCell()
@@ -208,7 +238,6 @@ private:
   MembraneArrays Arrays;
   vtkNew<vtkCellArray> Polygons;
   vtkNew<vtkIdTypeArray> PolygonCells;
-  const vtkIdTypeArray* SplitCells = nullptr;
 };
 
 }

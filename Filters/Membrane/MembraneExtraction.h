@@ -41,8 +41,8 @@ vtkMTimeType GetMembraneTime(vtkPolyData* membrane);
 
 /**
  * Triangles of the polygons and strips of `membrane`, in the order of its cells. Other polygons
- * than triangles are split by vtkTriangleFilter. A polygon that cannot be split becomes an invalid
- * triangle, which validation skips and counts.
+ * than triangles are split by vtkTriangleFilter or, where it leaves parts out, by DividePolygon. A
+ * polygon that cannot be split becomes an invalid triangle, which validation skips and counts.
  */
 MembraneArrays ExtractMembrane(vtkPolyData* membrane);
 

@@ -5,6 +5,7 @@
 
 #include "Refraction/Membrane/Membrane.h"
 #include "Refraction/Sight/EyeStatus.h"
+#include "Refraction/Stack/RefractionStack.h"
 
 #include <string>
 
@@ -32,6 +33,12 @@ void Report(vtkObject* owner, const SceneMessages& messages);
  */
 std::string DescribeNoImage(
   const Membrane& surface, const glm::dvec3& eye, double side, double before, double behind);
+
+/**
+ * Text of the warning that all sight rays which a list lets pass to an interface are totally
+ * reflected at it; empty if some of a few hundred rays pass all interfaces.
+ */
+std::string DescribeReflection(const RefractionStack& stack);
 
 /** Text of the error for an eye that is not `Ready`. */
 std::string DescribeBadEye(EyeStatus status, const glm::dvec3& eye);

@@ -4,6 +4,7 @@
 
 #include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Interface/InterfaceInput.h"
+#include "Filters/Membrane/BackPieces.h"
 #include "Refraction/Stack/PlaneImages.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"
 
@@ -441,10 +442,33 @@ std::string RefractionScene::DescribeMembrane(const CurvedMembraneSolver* curved
          "of them are refracted at one only, and objects behind both have an image through each. "
          "Use one piece, or a filter for each. ";
   }
+  if (!isEnclosed && !isBehind)
+  {
+    text << this->DescribePieces(0, { this->GetEye() }, 1.0);
+  }
   this->EyeEnclosed = isEnclosed;
   this->Sees = !isBehind;
   this->PointsBehind = behind;
   this->EyeReportOf = this->Version.Shape;
+  return text.str();
+}
+
+//------------------------------------------------------------------------------
+/** Text of the warning about pieces that show all eyes their backs, once for each shape. */
+std::string RefractionScene::DescribePieces(
+  std::size_t index, const std::vector<glm::dvec3>& eyes, double side)
+{
+  const std::size_t backs =
+    CountBackFacets(*this->Prepared->Surfaces[index].Source.GetSurface(), eyes, side);
+  std::ostringstream text;
+  if (backs > 0 && this->PieceReportOf != this->Version.Shape)
+  {
+    this->PieceReportOf = this->Version.Shape;
+    text << NameInterface(index, this->Prepared->Surfaces.size()) << backs
+         << " facets belong to pieces of the surface that show the eye their backs: no ray is "
+            "refracted there, and nothing is seen behind them. Reverse their normals and the order "
+            "of their corners. ";
+  }
   return text.str();
 }
 
@@ -456,10 +480,13 @@ std::string RefractionScene::DescribeList(const RefractionStack& stack)
   const std::size_t behind = stack.GetNumberOfInterfaces() - stack.GetLinks().size();
   const bool isBehind = behind > this->InterfacesBehindEye;
   this->InterfacesBehindEye = behind;
-  this->Sees = !isBlocked;
+  const std::string reflection =
+    stack.GetLinks().empty() || isBlocked ? std::string() : DescribeReflection(stack);
+  this->Sees = !isBlocked && reflection.empty();
   this->EyeEnclosed = false;
   this->PointsBehind = 0;
   std::ostringstream text;
+  text << reflection;
   if (isBlocked)
   {
     text << "No ray from the eye passes the surfaces in the order of the list. Do they cross, does "
@@ -472,6 +499,12 @@ std::string RefractionScene::DescribeList(const RefractionStack& stack)
     text << "The eye is behind interface " << (last > 0 ? "0 to " : "") << last
          << ", and nothing is refracted there. If the eye is in front, surfaces are in the wrong "
             "order, normals point to the wrong side, or indices of refraction are exchanged. ";
+  }
+  if (this->UsedFor != Use::Rays && !isBlocked && !stack.GetLinks().empty())
+  {
+    const RefractionStack::Link& first = stack.GetLinks().front();
+    text << this->DescribePieces(
+      first.Index, { this->GetEye() }, first.Passage.FromFront ? 1.0 : -1.0);
   }
   for (std::size_t i = 0; (isBlocked || isBehind) && i < this->View.Media.size(); ++i)
   {
@@ -503,6 +536,12 @@ void RefractionScene::ReportEyes(const std::vector<glm::dvec3>& eyes, SceneMessa
     messages.Warning +=
       "No facet of the first membrane faces an eye: its normals point to the other side. Unless "
       "the eyes are really behind it, reverse the normals and the order of the corners. ";
+  }
+  const MediaChain chain(this->View.Media);
+  if (!areBehind && !chain.Ways.empty())
+  {
+    messages.Warning +=
+      this->DescribePieces(index, eyes, chain.Ways.front()[index].FromFront ? 1.0 : -1.0);
   }
   this->AreEyesExamined = true;
   this->AreEyesBehind = areBehind;

@@ -205,6 +205,7 @@ private:
   bool FindPlane(const CurvedMembraneSolver& curved);
   std::string DescribeMembrane(const CurvedMembraneSolver* curved);
   std::string DescribeList(const RefractionStack& stack);
+  std::string DescribePieces(std::size_t index, const std::vector<glm::dvec3>& eyes, double side);
   /** The solver's count, to which all of its users add. */
   vtkTypeInt64 CountUndecided() const;
 
@@ -231,6 +232,7 @@ private:
   bool EyeEnclosed = false;
   vtkTypeInt64 PointsBehind = 0;
   vtkTypeInt64 EyeReportOf = -1; ///< number of the shape for which the warnings were given
+  vtkTypeInt64 PieceReportOf = -1;
 };
 
 }

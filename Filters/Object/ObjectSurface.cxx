@@ -3,9 +3,8 @@
 #include "Filters/Object/ObjectSurface.h"
 
 #include "Filters/Common/CellLoop.h"
-#include "Filters/Common/TouchingPolygon.h"
+#include "Filters/Common/PolygonDivision.h"
 
-#include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataSet.h"
@@ -49,19 +48,20 @@ vtkMTimeType GetTime(vtkDataSet* data)
 
 /**
  * True if a polygon turns to both sides, by more than the rounding of the cross product of its
- * edges. Its area vector determines the side.
+ * edges. Its area vector determines the side. Corners that repeat the one before them do not count.
  */
-bool IsConcave(const std::vector<glm::dvec3>& corners)
+bool IsConcave(std::vector<glm::dvec3>& corners)
 {
   // Rounding of a cross product, as in Membrane.cxx, for edges from coordinates that are rounded.
   constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
-  const std::size_t count = corners.size();
-  glm::dvec3 area(0.0);
-  double reach = 0.0;
-  for (std::size_t i = 1; i + 1 < count; ++i)
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  if (corners.back() == corners.front())
   {
-    area += glm::cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
+    corners.pop_back();
   }
+  const std::size_t count = corners.size();
+  const glm::dvec3 area = GetTwiceTheArea(corners);
+  double reach = 0.0;
   for (const glm::dvec3& corner : corners)
   {
     reach = std::max(reach, glm::length(corner));
@@ -108,8 +108,8 @@ std::vector<vtkIdType> FindConcave(vtkPolyData* data)
   return concave;
 }
 
-/** Several faces or triangles of a cell have its id, which is then not global any more. */
-void UnmarkGlobalIds(vtkCellData* data)
+/** Ids of which several faces, triangles or points have the same one are not global any more. */
+void UnmarkGlobalIds(vtkDataSetAttributes* data)
 {
   data->SetActiveAttribute(-1, vtkDataSetAttributes::GLOBALIDS);
 }
@@ -147,7 +147,7 @@ public:
   }
 
 private:
-  /** Divides all concave polygons at once, at a size of 1: tolerances of VTK are lengths. */
+  /** Divides all concave polygons at once, each flat and at a size of 1. */
   void Triangulate()
   {
     this->Scaled->SetDataTypeToDouble();
@@ -174,14 +174,12 @@ private:
 
   void AddScaled(vtkIdType count, const vtkIdType* ids)
   {
-    vtkBoundingBox box;
-    for (vtkIdType i = 0; i < count; ++i)
+    std::vector<glm::dvec3> corners(static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < corners.size(); ++i)
     {
-      box.AddPoint(this->From->GetPoint(ids[i]));
+      this->From->GetPoint(ids[i], &corners[i].x);
     }
-    glm::dvec3 middle;
-    box.GetCenter(&middle.x);
-    const double size = box.GetMaxLength();
+    FlattenPolygon(corners);
     this->ScaledPolygons->InsertNextCell(static_cast<int>(count));
     std::unordered_map<vtkIdType, vtkIdType> known; // a polygon may touch itself at a point
     for (vtkIdType i = 0; i < count; ++i)
@@ -189,10 +187,7 @@ private:
       const auto [place, isNew] = known.emplace(ids[i], this->Scaled->GetNumberOfPoints());
       if (isNew)
       {
-        glm::dvec3 point;
-        this->From->GetPoint(ids[i], &point.x);
-        point = (point - middle) / size;
-        this->Scaled->InsertNextPoint(&point.x);
+        this->Scaled->InsertNextPoint(&corners[static_cast<std::size_t>(i)].x);
         this->Originals.push_back(ids[i]);
       }
       this->ScaledPolygons->InsertCellPoint(place->second);
@@ -239,7 +234,7 @@ private:
     vtkIdType count = 0;
     const vtkIdType* ids = nullptr;
     this->ScaledPolygons->GetCellAtId(place - this->Concave.begin(), count, ids);
-    return DivideTouchingPolygon(this->Scaled, count, ids,
+    return DividePolygon(this->Scaled, count, ids,
       [this, cell](const vtkIdType* three) { this->AddTriangle(three, cell); });
   }
 
@@ -301,6 +296,22 @@ vtkSmartPointer<vtkIdTypeArray> Take(vtkDataSetAttributes* attributes, const cha
   return ids;
 }
 
+/** True if an id below `count` is there twice: points of a grid on several of its sides. */
+bool AreRepeated(vtkIdTypeArray* ids, vtkIdType count)
+{
+  std::vector<bool> isKnown(static_cast<std::size_t>(count), false);
+  for (vtkIdType i = 0; ids && i < ids->GetNumberOfValues(); ++i)
+  {
+    const auto id = static_cast<std::size_t>(ids->GetValue(i));
+    if (isKnown[id])
+    {
+      return true;
+    }
+    isKnown[id] = true;
+  }
+  return false;
+}
+
 void ExtractSurface(vtkDataSet* input, ObjectSurface& surface)
 {
   vtkNew<vtkDataSetSurfaceFilter> faces;
@@ -314,6 +325,10 @@ void ExtractSurface(vtkDataSet* input, ObjectSurface& surface)
   surface.Points = Take(surface.Data->GetPointData(), PointIds);
   surface.Cells = Take(surface.Data->GetCellData(), CellIds);
   UnmarkGlobalIds(surface.Data->GetCellData());
+  if (AreRepeated(surface.Points, input->GetNumberOfPoints()))
+  {
+    UnmarkGlobalIds(surface.Data->GetPointData());
+  }
 }
 
 /** Replaces the ids in an array of a name by those that `ids` has for them. */

@@ -10,26 +10,19 @@
 
 namespace meniscus
 {
-namespace
-{
-
-/** Interfaces that the shader has room for; it leaves out the reflections at further ones. */
-constexpr int LargestNumber = 16;
-
-}
 
 //------------------------------------------------------------------------------
 std::string PlateShaderSource()
 {
-  return "#define MAXIMUM_OF_INTERFACES " + std::to_string(LargestNumber) + "\n" +
+  return "#define MAXIMUM_OF_INTERFACES " + std::to_string(LargestNumberOfPlates) + "\n" +
     vtkPlateTransmittance;
 }
 
 //------------------------------------------------------------------------------
 void SetPlateUniforms(vtkShaderProgram* program, const std::vector<double>& indices)
 {
-  const int interfaces = std::min(static_cast<int>(indices.size()), LargestNumber);
-  float numbers[LargestNumber];
+  const int interfaces = std::min(static_cast<int>(indices.size()), LargestNumberOfPlates);
+  float numbers[LargestNumberOfPlates];
   std::copy_n(indices.begin(), interfaces, numbers);
   program->SetUniformi("interfaces", interfaces);
   program->SetUniform1fv("relativeIndices", interfaces, numbers);

@@ -10,11 +10,14 @@ class vtkShaderProgram;
 namespace meniscus
 {
 
-/** Source of vtkPlateTransmittance.glsl, with the number of interfaces that it takes, 16. */
+/** Interfaces that the shader has room for; it leaves out the reflections at further ones. */
+constexpr int LargestNumberOfPlates = 16;
+
+/** Source of vtkPlateTransmittance.glsl for LargestNumberOfPlates. */
 std::string PlateShaderSource();
 
 /**
- * Sets its uniforms. The interfaces behind the first 16 are left out.
+ * Sets its uniforms. The interfaces behind the first LargestNumberOfPlates are left out.
  * @param indices index of refraction behind each interface, relative to the medium in front of the
  *   first.
  */

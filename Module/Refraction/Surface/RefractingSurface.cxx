@@ -235,7 +235,12 @@ void RefractingSurface::FindInPatch(std::int32_t facet, const glm::dvec3& origin
     most = distance;
   };
   SurfaceCrossing only;
-  if (FindOnly(patch, this->Slants[static_cast<std::size_t>(facet)], origin, frame.Axis, only))
+  const PatchSlant& slant = this->Slants[static_cast<std::size_t>(facet)];
+  if (std::isinf(slant.Largest) && glm::dot(slant.Facing, frame.Axis) == 0.0)
+  {
+    return; // a flat patch and a line that is parallel to it or lies in it: no point of it crosses
+  }
+  if (FindOnly(patch, slant, origin, frame.Axis, only))
   {
     if (FindOutside(only.B).Least >= -PatchCrossings::Border)
     {

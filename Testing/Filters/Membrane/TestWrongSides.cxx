@@ -13,6 +13,10 @@
 #include "vtkTriangulatedPositionFilter.h"
 #include "vtkTruePositionFilter.h"
 
+#include <vtkAppendPolyData.h>
+#include <vtkTransform.h>
+#include <vtkTransformPolyDataFilter.h>
+
 namespace
 {
 
@@ -228,6 +232,98 @@ TEST(WrongSides, AFinOnTheMembraneIsReported)
   const auto view = MakeAllImages(MakePoints({ { 10.0, -60.0, 5.0 } }), MakeMembrane(mesh));
   const auto told = UpdateAndObserve(view);
   EXPECT_TRUE(Contains(told->Text, "three or more of them share")) << told->Text;
+}
+
+/** Two pieces of water side by side, each with its side and height. */
+vtkSmartPointer<vtkPolyData> MakeTwoPieces(double firstSide, double secondSide, double height)
+{
+  vtkNew<vtkAppendPolyData> pieces;
+  vtkNew<vtkTransform> aside;
+  aside->Translate(height == 0.0 ? 210.0 : 0.0, height, 0.0);
+  vtkNew<vtkTransformPolyDataFilter> moved;
+  moved->SetTransform(aside);
+  moved->SetInputData(MakeWater(secondSide));
+  pieces->AddInputData(MakeWater(firstSide));
+  pieces->AddInputConnection(moved->GetOutputPort());
+  pieces->Update();
+  return pieces->GetOutput();
+}
+
+// Objects behind such a piece are lost. The far wall of a tank turns its back to the eye rightly.
+TEST(WrongSides, APieceUpsideDownIsReported)
+{
+  const char* const expected = "32 facets belong to pieces";
+  const auto points = MakePoints({ { 10.0, -20.0, 5.0 }, { 200.0, -20.0, 5.0 } });
+  for (const bool isWrong : { true, false })
+  {
+    for (const auto& water : isWrong
+        ? std::vector{ MakeTwoPieces(1.0, -1.0, 0.0) }
+        : std::vector{ MakeTwoPieces(1.0, 1.0, 0.0), MakeTwoPieces(1.0, -1.0, -50.0) })
+    {
+      vtkNew<vtkTruePositionFilter> truth;
+      truth->SetInputData(points);
+      truth->SetMembraneData(water);
+      truth->SetEyePosition(20.0, 300.0, 10.0);
+      const auto view = MakeAllImages(points, water);
+      const auto list = MakeAllImages(points, water);
+      list->AddMembraneData(MakeWater(1.0, -80.0));
+      vtkNew<vtkRefractingInterfaceCollection> layers;
+      layers->AddInterface(1.0, 1.333);
+      layers->AddInterface(1.333, 1.5);
+      list->SetInterfaces(layers);
+      for (vtkAlgorithm* filter : std::initializer_list<vtkAlgorithm*>{ truth, view, list })
+      {
+        const auto told = UpdateAndObserve(filter);
+        EXPECT_EQ(Contains(told->Text, expected), isWrong)
+          << filter->GetClassName() << ": " << told->Text;
+        const int warnings = told->Warnings;
+        filter->Modified();
+        filter->Update();
+        EXPECT_EQ(told->Warnings, warnings) << "repeated: " << told->Text;
+      }
+    }
+  }
+}
+
+// An eye in the water, far to the side, in front of a pane of glass.
+TEST(WrongSides, TotalReflectionInAListIsNamed)
+{
+  const auto view = MakeAllImages(MakePoints({ { 10.0, -60.0, 5.0 } }), MakeWater(1.0));
+  view->AddMembraneData(MakeWater(1.0, -10.0));
+  view->SetEyePosition(1000.0, 300.0, 0.0);
+  vtkNew<vtkRefractingInterfaceCollection> pane;
+  pane->AddInterface(1.333, 1.5);
+  pane->AddInterface(1.5, 1.0);
+  view->SetInterfaces(pane);
+  const auto told = UpdateAndObserve(view);
+  EXPECT_EQ(view->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(told->Warnings, 1) << told->Text;
+  EXPECT_TRUE(Contains(told->Text, "Everything is totally reflected")) << told->Text;
+  EXPECT_TRUE(Contains(told->Text, "interface 1")) << told->Text;
+  view->SetEyePosition(20.0, 300.0, 10.0);
+  view->Update();
+  EXPECT_EQ(view->GetOutput()->GetNumberOfPoints(), 1);
+  EXPECT_EQ(told->Warnings, 1) << told->Text;
+}
+
+// All rays lie in the plane of the water: neither is one of them refracted, nor are crossings with
+// the facets looked for.
+TEST(WrongSides, FlatWaterSeenEdgeOnShowsNothing)
+{
+  for (const double x : { 150.0, 1e6 })
+  {
+    const auto view = MakeAllImages(MakePoints({ { 10.0, -60.0, 5.0 } }), MakeWater(1.0));
+    view->SetEyePosition(x, 0.0, 0.0);
+    const auto told = UpdateAndObserve(view);
+    EXPECT_TRUE(Contains(told->Text, "No facet of the membrane faces the eye")) << told->Text;
+    vtkNew<vtkTruePositionFilter> truth;
+    truth->SetInputData(MakePoints({ { -10.0, 0.0, 5.0 } }));
+    truth->SetMembraneData(MakeWater(1.0));
+    truth->SetEyePosition(x, 0.0, 0.0);
+    truth->Update();
+    EXPECT_EQ(truth->GetOutput()->GetPointData()->GetArray("SeenState")->GetTuple1(0),
+      vtkTruePositionFilter::UNREFRACTED);
+  }
 }
 
 }

@@ -5,6 +5,12 @@
 #include "RefractedGeometryTestHelpers.h"
 
 #include "VTKTestBasics.h"
+#include "vtkRefractingInterfaceCollection.h"
+
+#include <vtkImageData.h>
+
+#include <array>
+#include <set>
 
 namespace
 {
@@ -117,6 +123,30 @@ TEST(ObjectSurfaces, BlocksAreOneOutputOrSeveral)
   view->SetInputDataObject(0, MakeGrid(3, 20.0, -10.0));
   view->Update();
   EXPECT_EQ(view->GetOutput()->GetNumberOfPolys(), 4);
+}
+
+TEST(ObjectSurfaces, LitBlocksAreOneOutputOrSeveral)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, MakeHexahedra());
+  blocks->SetBlock(2, MakeGrid(3, 20.0, -10.0));
+  vtkNew<vtkRefractedLightFilter> light;
+  light->SetInputDataObject(0, blocks);
+  light->SetMembraneData(MakeFlatMembrane());
+  light->SetLightPosition(0.0, 1.0, 0.0);
+  ExpectQuiet(light);
+  ASSERT_TRUE(vtkMultiBlockDataSet::SafeDownCast(light->GetOutputDataObject(0)));
+  ASSERT_NE(light->GetOutput(), nullptr);
+  EXPECT_EQ(light->GetOutput()->GetNumberOfPolys(), 14);
+  EXPECT_NE(light->GetOutput()->GetCellData()->GetArray("RefractionIrradiance"), nullptr);
+}
+
+TEST(ObjectSurfaces, NoBlocksAreAnEmptyOutput)
+{
+  const auto view = MakeView(vtkNew<vtkMultiBlockDataSet>());
+  ExpectQuiet(view);
+  ASSERT_NE(view->GetOutput(), nullptr);
+  EXPECT_EQ(view->GetOutput()->GetNumberOfPoints(), 0);
 }
 
 /** A polygon in the shape of a U, and a square with one of its corners pushed inside. */
@@ -254,6 +284,116 @@ TEST(ObjectSurfaces, PolygonsThatTouchOrCrossThemselvesAreSeen)
   const auto view = MakeView(crossed);
   view->Update();
   EXPECT_GT(view->GetOutput()->GetNumberOfPolys(), 0);
+}
+
+/** A concave polygon that is not plane, whose seventh corner repeats the sixth one. */
+vtkSmartPointer<vtkPolyData> MakeBent(double height, double size)
+{
+  std::vector<Point> corners;
+  for (const auto& [x, y, z] : { std::array{ 0.0, 0.0, 0.0 }, { 0.0, 0.2, 1.0 }, { 0.5, -0.1, 0.4 },
+         { 1.0, 0.0, 1.0 }, { 1.0, 0.2, 0.0 }, { 0.7, 0.1, 0.3 }, { 0.7, 0.1, 0.3 } })
+  {
+    corners.push_back({ size * x, height + size * y, size * z });
+  }
+  auto data = MakePoints(corners);
+  const vtkIdType ids[7] = { 0, 1, 2, 3, 4, 5, 6 };
+  vtkNew<vtkCellArray> polygons;
+  polygons->InsertNextCell(7, ids);
+  data->SetPolys(polygons);
+  return data;
+}
+
+/** Component by y of the sum of the area vectors of all triangles, at the true points. */
+double SumAreas(vtkPolyData* data)
+{
+  double sum = 0.0;
+  vtkDataArray* places = data->GetPointData()->GetArray("TruePosition");
+  for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
+  {
+    vtkCell* cell = data->GetCell(i);
+    EXPECT_EQ(cell->GetNumberOfPoints(), 3);
+    glm::dvec3 corner[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      places->GetTuple(cell->GetPointId(k), &corner[k].x);
+    }
+    sum += 0.5 * glm::cross(corner[1] - corner[0], corner[2] - corner[0]).y;
+  }
+  return sum;
+}
+
+// VTK's division leaves out parts of polygons that are not plane.
+TEST(ObjectSurfaces, BentPolygonsAreDividedWhole)
+{
+  // Half the sum of the cross products of the corners, without the repeated one.
+  const double area = 900.0 * 0.55;
+  const auto view = MakeView(MakeBent(-20.0, 30.0));
+  view->TrueGeometryOn();
+  view->CloseSeamsOff();
+  for (const bool all : { true, false })
+  {
+    view->SetImages(
+      all ? vtkRefractedGeometryFilter::ALL_IMAGES : vtkRefractedGeometryFilter::FIRST_IMAGE);
+    view->Update();
+    EXPECT_NEAR(SumAreas(view->GetOutput()), area, 1e-9);
+  }
+  // A membrane that hardly refracts, seen from above, shows what lies below each of its triangles.
+  const auto through = MakeView(MakePoints({ { 44.0, -40.0, 34.0 } }));
+  through->SetMembraneData(MakeBent(0.0, 60.0));
+  through->SetInteriorIndexOfRefraction(1.001);
+  through->SetEyePosition(44.0, 1e4, 34.0);
+  through->Update();
+  EXPECT_EQ(through->GetOutput()->GetNumberOfPoints(), 1);
+}
+
+// Through a list, as through one surface, each cell has the light of its area.
+TEST(ObjectSurfaces, ConcavePolygonsHaveTheirLight)
+{
+  for (const int interfaces : { 1, 2 })
+  {
+    vtkNew<vtkRefractedLightFilter> light;
+    light->SetInputData(MakeConcave());
+    light->SetLightPosition(0.0, 1.0, 0.0);
+    vtkNew<vtkRefractingInterfaceCollection> list;
+    list->AddInterface(1.0, 1.333);
+    light->AddMembraneData(MakeFlatMembrane());
+    if (interfaces > 1)
+    {
+      list->AddInterface(1.333, 1.5);
+      auto lower = MakeGrid(3, 200.0, -10.0);
+      light->AddMembraneData(lower);
+    }
+    light->SetInterfaces(list);
+    ExpectQuiet(light);
+    vtkDataArray* irradiance = light->GetOutput()->GetCellData()->GetArray("RefractionIrradiance");
+    ASSERT_EQ(irradiance->GetNumberOfTuples(), 3);
+    EXPECT_GT(irradiance->GetTuple1(0), 0.9);
+    EXPECT_NEAR(irradiance->GetTuple1(1), irradiance->GetTuple1(0), 1e-4);
+  }
+}
+
+// Points of a grid that are on several of its sides are there several times.
+TEST(ObjectSurfaces, RepeatedPointsOfAGridHaveNoGlobalIds)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(3, 3, 3);
+  image->SetSpacing(10.0, 10.0, 10.0);
+  image->SetOrigin(-10.0, -40.0, -10.0);
+  image->GetPointData()->SetGlobalIds(
+    MakeArray<vtkIdTypeArray>("Rank", 27, [](vtkIdType i) { return 100 + i; }));
+  const auto view = MakeView(image);
+  view->SetImagesToFirstImage();
+  view->Update();
+  std::set<double> ids;
+  vtkPointData* data = view->GetOutput()->GetPointData();
+  vtkDataArray* ranks = data->GetArray("Rank");
+  ASSERT_NE(ranks, nullptr);
+  for (const double rank : ValuesOf(ranks))
+  {
+    ids.insert(rank);
+  }
+  const bool areUnique = ids.size() == static_cast<std::size_t>(ranks->GetNumberOfTuples());
+  EXPECT_EQ(data->GetGlobalIds() != nullptr, areUnique);
 }
 
 TEST(ObjectSurfaces, MembranesWithAHoleInAPolygonRefract)

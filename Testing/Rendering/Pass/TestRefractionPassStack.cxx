@@ -171,3 +171,29 @@ TEST(RefractionPassStack, TheFirstThatRefractsReflects)
     [](const Sight& sight, int channel)
     { return 1.0 - MakeFresnel(sight) + MakeFresnel(sight) * Background[channel]; });
 }
+
+/** Nine panes one behind the other: the shader has room for the reflections at 16 interfaces. */
+TEST(RefractionPassStack, MoreInterfacesThanReflectAreReported)
+{
+  Pool pool;
+  AddPane(pool);
+  const auto messages = ObserveErrors(pool.Pass);
+  vtkRefractingInterfaceCollection* list = pool.Filter->GetInterfaces();
+  for (int i = 2; i < 18; ++i)
+  {
+    if (i == 16)
+    {
+      pool.Render();
+      EXPECT_TRUE(messages->Warnings.empty()) << "16 interfaces";
+    }
+    const bool isGlass = i % 2 == 0;
+    list->AddInterface(isGlass ? Water : Glass, isGlass ? Glass : Water);
+    pool.Filter->AddMembraneConnection(MakePlane(5.0, -Thickness - 0.01 * i, 4)->GetOutputPort());
+  }
+  pool.Render();
+  ASSERT_EQ(messages->Warnings.size(), 1u);
+  EXPECT_NE(messages->Warnings[0].find("16 of 18 interfaces"), std::string::npos)
+    << messages->Warnings[0];
+  pool.Render();
+  EXPECT_EQ(messages->Warnings.size(), 1u) << "repeated";
+}
