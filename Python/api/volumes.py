@@ -245,23 +245,37 @@ def _set_isovalues(look, isovalues, limits, is_logarithmic):
         contours.SetValue(index, value)
 
 
-def _is_zero(function, low, high):
-    """Whether a vtkPiecewiseFunction is 0 from low to high."""
+def _find_largest(function, low, high):
+    """The largest value of a vtkPiecewiseFunction from low to high."""
     node = [0.0] * 4
     places = []
     for index in range(function.GetSize()):
         function.GetNodeValue(index, node)
         if low < node[0] < high:
             places.append(node[0])
-    return not any(function.GetValue(place) for place in (low, *places, high))
+    return max(function.GetValue(place) for place in (low, *places, high))
 
 
-def _warn_of_emptiness(look, scalars, is_surface):
-    """Warns of a volume of which nothing is seen."""
+def _warn_of_thinness(largest, bounds, unit_distance):
+    """Warns of a volume that a picture of 8 bits does not show, from its broadest side.
+
+    largest: opacity over the unit distance.
+    """
+    shortest = min(bounds[2 * axis + 1] - bounds[2 * axis] for axis in range(3))
+    if 0.0 < largest * shortest / unit_distance < 1.0 / 255.0:
+        warn("The volume is all but transparent along its shortest side, of %g: opacities are over "
+             "the length %g; give another one with opacity_unit_distance" % (
+                 shortest, unit_distance))
+
+
+def _warn_of_emptiness(look, scalars, blending, bounds):
+    """Warns of a volume of which nothing is seen, or hardly anything."""
     low, high = map(float, scalars.get_range())
-    opacity = look.GetScalarOpacity()
-    if not is_surface:
-        empty, reason = _is_zero(opacity, low, high), "the opacity is 0 for all of its values"
+    if blending != "isosurface":
+        largest = _find_largest(look.GetScalarOpacity(), low, high)
+        empty, reason = largest <= 0.0, "the opacity is 0 for all of its values"
+        if blending in ("composite", 0):
+            _warn_of_thinness(largest, bounds, look.GetScalarOpacityUnitDistance())
     else:
         contours = look.GetIsoSurfaceValues()
         values = [contours.GetValue(index) for index in range(contours.GetNumberOfContours())]
@@ -461,7 +475,7 @@ def add_to(
         _set_isovalues(look, 3 if isovalues is None else isovalues, mapper.scalar_range,
                        table.GetScale() == VTK_SCALE_LOG10)
     if not chosen.is_mixed:
-        _warn_of_emptiness(look, chosen, blending == "isosurface")
+        _warn_of_emptiness(look, chosen, blending, mapper.GetBounds())
     if not chosen.has_colors:
         _add_bar(plotter, chosen.title, scalar_bar_args, show_scalar_bar)
     if render:

@@ -247,6 +247,25 @@ class TestTypes(unittest.TestCase):
         self.assertGreater(picture_of(coarse, "level", clim=(0, 2)).max(), 20)
 
 
+class TestThinMeshes(unittest.TestCase):
+    def test_a_plate(self):
+        """A plate that the default distance makes transparent causes a warning with the cure."""
+        for height, distance, warns in (
+                (1.0, None, False), (1e-3, None, True), (1e-3, 1e-3, False)):
+            image = pyvista.ImageData(dimensions=(20, 20, 2), spacing=(1.0, 1.0, height))
+            image["x"] = image.points[:, 0]
+            for mesh in (image, image.cast_to_unstructured_grid()):
+                plotter = pyvista.Plotter(off_screen=True)
+                with warnings.catch_warnings(record=True) as told:
+                    warnings.simplefilter("always")
+                    add_volume(plotter, mesh, "x", opacity_unit_distance=distance)
+                    add_volume(plotter, mesh, "x", blending="maximum", name="projection")
+                found = [str(each.message) for each in told if "transparent" in str(each.message)]
+                self.assertEqual(len(found), int(warns), (height, distance))
+                self.assertTrue(not warns or "along its shortest side, of 0.001" in found[0])
+                plotter.close()
+
+
 class TestHiddenCells(unittest.TestCase):
     def test_values_of_hidden_points(self):
         """Fill values of hidden points and of refined cells have no part in range and bounds."""
