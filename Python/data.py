@@ -55,6 +55,22 @@ def replace_leaves(data, leaves, copies):
     return blocks
 
 
+def find_arrays(mesh, scalars, in_cells=True):
+    """The arrays of a name, or the active scalars, of the points or else, with in_cells, of the
+    cells of the data sets of a mesh, which may be a filter that makes it."""
+    if hasattr(mesh, "GetOutputPort"):
+        mesh.Update()
+        mesh = mesh.GetOutputDataObject(0)
+    found = []
+    for leaf in leaves_of(mesh):
+        for attributes in (leaf.GetPointData(), leaf.GetCellData())[:2 if in_cells else 1]:
+            array = attributes.GetArray(scalars) if scalars else attributes.GetScalars()
+            if array is not None:
+                found.append(array)
+                break
+    return found
+
+
 def check_component(name, count, component):
     """Raises a ValueError unless a component of an array is a number below count or "magnitude";
     None is allowed if there is only one."""
@@ -95,3 +111,14 @@ def run(algorithm):
                                    *messages["WarningEvent"]]))
     for message in messages["WarningEvent"]:
         warn(message, RuntimeWarning)
+
+
+def take_arrays(algorithm, names):
+    """Updates a filter as run() does; returns arrays of the points of its output, by their names.
+    It has none if a filter that makes its input has failed, which is a ValueError."""
+    run(algorithm)
+    points = algorithm.GetOutput().GetPointData()
+    found = [points.GetArray(name) for name in names]
+    if any(array is None for array in found):
+        raise ValueError("There is no mesh: the filter that makes it has failed")
+    return found

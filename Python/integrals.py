@@ -5,8 +5,8 @@ import numbers
 
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 
-from .arguments import check_dataset, check_name, check_names, check_numbers
-from .data import check_component, leaves_of, run
+from .arguments import check_dataset, check_name, check_names, check_numbers, refuse
+from .data import check_component, find_arrays, take_arrays
 from .names import set_properties
 from .vtkMeniscus import vtkTetrahedraRayIntegral
 
@@ -33,28 +33,16 @@ def _as_rows(array, width, height):
 
 def _set_bins(rays, bins):
     """Sets each bin to a coefficient, or to (attenuation, emission, intensity)."""
+    setters = (rays.SetBinAttenuation, rays.SetBinEmission, rays.SetBinIntensity)
+    if not hasattr(bins, "__len__") or isinstance(bins, (bytes, str)):
+        refuse("bins", "a list of numbers, or of lists of up to three", bins)
     rays.SetNumberOfEnergyBins(len(bins))
     for number, values in enumerate(bins):
         values = values if isinstance(values, (tuple, list)) else (values,)
-        setters = (rays.SetBinAttenuation, rays.SetBinEmission, rays.SetBinIntensity)
+        if len(values) > len(setters) or not all(isinstance(x, numbers.Real) for x in values):
+            refuse("bins", "a list of numbers, or of lists of up to three", bins)
         for setter, value in zip(setters, values):
             setter(number, value)
-
-
-def _find_arrays(mesh, scalars):
-    """The arrays of a name, or the active scalars, of the points or else of the cells of the data
-    sets of a mesh."""
-    if hasattr(mesh, "GetOutputPort"):
-        mesh.Update()
-        mesh = mesh.GetOutputDataObject(0)
-    found = []
-    for leaf in leaves_of(mesh):
-        for attributes in (leaf.GetPointData(), leaf.GetCellData()):
-            array = attributes.GetArray(scalars) if scalars else attributes.GetScalars()
-            if array is not None:
-                found.append(array)
-                break
-    return found
 
 
 def _choose_component(rays, arrays, component):
@@ -111,7 +99,7 @@ def ray_integral(mesh, arrays="Integral", *, scalars=None, component=None, size=
         rays.SetInputArrayToProcess(
             0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS_THEN_CELLS, scalars)
     if not _OWN_COMPONENTS & set(properties) and set(names) - _GEOMETRIC:
-        _choose_component(rays, _find_arrays(mesh, scalars), component)
+        _choose_component(rays, find_arrays(mesh, scalars), component)
     rays.SetImageSize(*size)
     if camera is not None:
         rays.SetCamera(camera)
@@ -121,7 +109,5 @@ def ray_integral(mesh, arrays="Integral", *, scalars=None, component=None, size=
         from .api.surfaces import connect  # needs numpy
         connect(rays, surfaces, indices)
     set_properties(rays, properties)
-    run(rays)
-    points = rays.GetOutput().GetPointData()
-    found = {name: _as_rows(points.GetArray(name), *size) for name in names}
+    found = {name: _as_rows(array, *size) for name, array in zip(names, take_arrays(rays, names))}
     return found[arrays] if isinstance(arrays, str) else found

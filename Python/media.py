@@ -7,7 +7,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 
 from .arguments import check_dataset, check_name, check_names, check_numbers
-from .data import run
+from .data import find_arrays, take_arrays
 from .names import choose, set_properties
 from .vtkMeniscus import vtkBentMediumAlgorithm
 
@@ -26,6 +26,10 @@ def connect_medium(target, port, argument, mesh, scalars, quantity):
         target.SetInputConnection(port, mesh.GetOutputPort())
     else:
         target.SetInputDataObject(port, mesh)
+    for array in find_arrays(mesh, scalars, in_cells=False):
+        if array.GetNumberOfComponents() != 1:
+            raise ValueError("The array '%s' has %d components; a %s is one number" % (
+                array.GetName(), array.GetNumberOfComponents(), quantity))
     if scalars is not None:
         target.SetInputArrayToProcess(
             0, port, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, scalars)
@@ -48,10 +52,8 @@ def cast(rays, image, arrays, size, direction, up, camera, properties):
     rays.SetViewUp(*up)
     rays.SetCamera(camera)
     set_properties(rays, properties)
-    run(rays)
-    points = rays.GetOutput().GetPointData()
     found = {}
-    for name, array in zip(names, wanted):
-        values = vtk_to_numpy(points.GetArray(array))
+    for name, array in zip(names, take_arrays(rays, wanted)):
+        values = vtk_to_numpy(array)
         found[name] = values.reshape((size[1], size[0]) + values.shape[1:])
     return found[image] if isinstance(image, str) else found

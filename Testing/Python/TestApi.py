@@ -15,7 +15,8 @@ import numpy
 from meniscus.viewer.colors import COLOR_MAPS, fill_colors, find_colors, list_colors, make_table
 from TestRayIntegral import make_block
 from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPiecewiseFunction
+from vtkmodules.vtkCommonDataModel import (
+    vtkImageData, vtkMultiBlockDataSet, vtkPiecewiseFunction)
 from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkPointSource
 from vtkmodules.vtkRenderingCore import (
     vtkCamera, vtkColorTransferFunction, vtkTexture, vtkVolumeProperty)
@@ -212,6 +213,14 @@ class TestRays(unittest.TestCase):
         numpy.testing.assert_allclose(
             found["deflection"][1, 3], [0, 1e-4], rtol=1e-3, atol=1e-7)
         self.assertGreater(found["schlieren"][1, 3], 0.9)
+        vectors = numpy_to_vtk(numpy.ones((self.block.GetNumberOfPoints(), 3)), deep=True)
+        vectors.SetName("U")
+        self.block.GetPointData().AddArray(vectors)
+        blocks = vtkMultiBlockDataSet()
+        blocks.SetBlock(0, self.block)
+        for mesh in (self.block, blocks):
+            with self.assertRaisesRegex(ValueError, "'U' has 3 components; a density is one"):
+                meniscus.schlieren(mesh, "U", **options)
         background = numpy.arange(24.0).reshape(4, 6)
         seen = meniscus.schlieren(self.block, "density", "background", background=background,
                                   **options)

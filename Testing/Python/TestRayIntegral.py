@@ -10,6 +10,7 @@ from vtkmodules.vtkCommonDataModel import (
     vtkHyperTreeGrid, vtkImageData, vtkMolecule, vtkMultiBlockDataSet, vtkTable)
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkIOXML import vtkXMLImageDataReader
 from vtkmodules.vtkRenderingCore import vtkCamera
 
 # The goal of the class, relative to the largest value.
@@ -83,6 +84,19 @@ class TestRayIntegral(unittest.TestCase):
         source.SetOutput(vtkTable())
         with self.assertRaisesRegex(ValueError, "is of type vtkTable"):
             integrals.ray_integral(source)
+
+    def test_a_file_that_is_absent(self):
+        reader = vtkXMLImageDataReader()
+        reader.SetFileName("absent.vti")
+        reader.AddObserver("ErrorEvent", lambda *_: None)
+        reader.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
+        with self.assertRaisesRegex(ValueError, "the filter that makes it has failed"):
+            integrals.ray_integral(reader)
+
+    def test_bins(self):
+        for bins in (3, "ab", [(1, 2, 3, 4)], ["x"], [None]):
+            with self.assertRaisesRegex(TypeError, "^bins must be a list"):
+                integrals.ray_integral(self.block, "EnergyBins", scalars="density", bins=bins)
 
     def test_surfaces(self):
         """The error about a mesh without volume says of which types its cells are."""
