@@ -216,6 +216,11 @@ std::string RayCastPresenter::Present(const RayCastFrame& frame, const RayFrame*
       this->Filled = { 0, this->Size[0], 0, this->Size[1] };
       this->Finished = true;
       error = makeImage(*this);
+      // A rasteriser on the processor reads them in less time than it takes for blending twice.
+      if (this->Depth.HasSamples() && this->BlendsSamples(output, viewport) && IsSoftware())
+      {
+        this->ReadDepths();
+      }
       this->DepthsOfImage.swap(this->Depths);
       this->HasDepthsOfImage = this->HasDepths;
       this->HasDepths = false;
@@ -451,7 +456,7 @@ std::string RayCastPresenter::Blend(const RayCastOutput& output, const int viewp
   this->LimitToFilled(viewport);
   const bool biased = output.ColorBias > 0.0f;
   const bool whole = this->Size[0] == viewport[2] && this->Size[1] == viewport[3];
-  const bool sampled = whole && !biased && !output.Selecting && this->MayHaveSteps();
+  const bool sampled = this->BlendsSamples(output, viewport) && this->MayHaveSteps();
   std::unique_ptr<vtkOpenGLQuadHelper>& composer =
     biased ? this->BiasedComposer : (sampled ? this->SampleComposer : this->Composer);
   const std::string error = output.Selecting
@@ -492,6 +497,14 @@ std::string RayCastPresenter::Blend(const RayCastOutput& output, const int viewp
   under->Deactivate();
   this->Image->Deactivate();
   return std::string();
+}
+
+//------------------------------------------------------------------------------
+/** True if the samples of a pixel at a step of depths get the colours of their sides of it. */
+bool RayCastPresenter::BlendsSamples(const RayCastOutput& output, const int viewport[4]) const
+{
+  return this->Size[0] == viewport[2] && this->Size[1] == viewport[3] &&
+    !(output.ColorBias > 0.0f) && !output.Selecting;
 }
 
 //------------------------------------------------------------------------------

@@ -110,6 +110,7 @@ private:
   void ShowAgain(const HeldImage& last, bool sameView);
   std::string Resize(int width, int height);
   std::string Blend(const RayCastOutput& output, const int viewport[4]);
+  bool BlendsSamples(const RayCastOutput& output, const int viewport[4]) const;
   bool MayHaveSteps() const;
   void DrawSamples(vtkOpenGLQuadHelper& composer);
   void LimitToFilled(const int viewport[4]);

@@ -125,6 +125,14 @@ void InterpolatedRays::SetDifferences(
 }
 
 //------------------------------------------------------------------------------
+/** True if rays end at the same depth where the window has these depths. */
+bool InterpolatedRays::HaveOneEnd(float depth, float other) const
+{
+  const RayFrame* frame = this->Input.Frame;
+  return other == depth || (frame && frame->EndAt(other) == frame->EndAt(depth));
+}
+
+//------------------------------------------------------------------------------
 /** True if the rays of a quarter enter the mesh equally often and end at the same depth. */
 bool InterpolatedRays::AreAlike(const Quarter& quarter) const
 {
@@ -136,9 +144,7 @@ bool InterpolatedRays::AreAlike(const Quarter& quarter) const
   {
     for (int column = quarter.Left; column <= quarter.Right; ++column)
     {
-      const float other = depthAt(column, row);
-      if (this->EntriesOf(column, row) != entries ||
-        (other != depth && this->Input.Frame->EndAt(other) != this->Input.Frame->EndAt(depth)))
+      if (this->EntriesOf(column, row) != entries || !this->HaveOneEnd(depth, depthAt(column, row)))
       {
         return false;
       }

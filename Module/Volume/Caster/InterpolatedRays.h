@@ -3,9 +3,9 @@
 #pragma once
 
 #include "Volume/Entries/BoundaryRaster.h"
-#include "Volume/Entries/EntryLists.h"
 #include "Volume/Rays/RayFrame.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -33,7 +33,8 @@ constexpr float LargestInterpolatedDifference = 2.0f / 255.0f;
  * - the second differences along the sides of the quarter, over the square's three rays, are at
  *   most LargestInterpolatedDifference;
  * - all of its rays enter the mesh equally often: none of them passes a silhouette;
- * - all of its rays end at the same depth, or behind the mesh, by opaque geometry.
+ * - all of its rays end at the same depth, or behind the mesh, by opaque geometry. Refracted rays
+ *   do so if the window has the same depth everywhere.
  *
  * If the second differences are above four times that, all rays of the quarter are cast at once,
  * because each further round ends with packets that are not full. A detail that is smaller than a
@@ -45,13 +46,15 @@ public:
   static constexpr int TileSize = BoundaryRaster::TileSize;
   /** Side of the first squares; their rays are half of it apart. */
   static constexpr int FirstSide = 8;
+  /** Number of the entries of each ray of a tile, in rows of TileSize. */
+  using NumbersOfEntries = std::array<std::int32_t, std::size_t{ TileSize } * TileSize>;
 
   /** The rays of a tile. All objects must stay until they have been cast. */
   struct Tile
   {
     BoundaryRaster::PixelBox Box;
-    /** Entries of all rays of the tile. */
-    const EntryLists* Entries;
+    const NumbersOfEntries* Entries;
+    /** Frame of sight rays; null for refracted rays. */
     const RayFrame* Frame;
     /** Window depth of opaque geometry per pixel of the image; null for none. */
     const float* OpaqueDepth;
@@ -102,8 +105,7 @@ private:
   }
   std::int32_t EntriesOf(int column, int row) const
   {
-    const std::size_t ray = NumberOf(column, row);
-    return this->Input.Entries->GetBegin(ray + 1) - this->Input.Entries->GetBegin(ray);
+    return (*this->Input.Entries)[NumberOf(column, row)];
   }
   std::int64_t PixelOf(int column, int row) const
   {
@@ -118,6 +120,7 @@ private:
   void SelectSquare(const Square& square);
   void SelectAll(const Quarter& quarter);
   void SetDifferences(const Three& columns, const Three& rows, float* across, float* along) const;
+  bool HaveOneEnd(float depth, float other) const;
   bool AreAlike(const Quarter& quarter) const;
   void Interpolate(const Quarter& quarter);
   void Refine(const Square& square);

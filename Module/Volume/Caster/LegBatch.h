@@ -21,9 +21,9 @@ struct TileLeg
   const float* OpaqueDepth;
   /** Rays of a pixel along each axis. */
   int RaysAcross = 1;
-  /** Rays of the tile that are cast, as for BoundaryRaster; null for all of them. */
+  /** Rays of the tile that are cast, each once; null for all of them. */
   const std::vector<std::int16_t>* Selected = nullptr;
-  /** True if the workspace has the entries of all rays of the tile; for sight legs. */
+  /** True if the workspace has the lines of all rays of the tile, with their entries. */
   bool IsListed = false;
 };
 

@@ -22,6 +22,7 @@ constexpr double Infinity = std::numeric_limits<double>::infinity();
 void RefractedLegEntries::Workspace::Group::Clear()
 {
   this->NumberOfBlocks = 0;
+  this->HasEntries = false;
   this->IsTaken = false;
   this->Origins.clear();
   this->EntriesInside.clear();
@@ -238,6 +239,51 @@ void RefractedLegEntries::AddToGroup(
 void RefractedLegEntries::Collect(
   const TileLeg& leg, const PacketJob& job, JoinedRays& joined, Workspace& workspace) const
 {
+  if (!leg.IsListed)
+  {
+    this->FindLines(leg, job, joined, workspace);
+  }
+  for (auto& groups : workspace.Frames)
+  {
+    for (Workspace::Group& group : groups)
+    {
+      group.IsTaken = false;
+    }
+  }
+  workspace.IsSelected.fill(leg.Selected == nullptr);
+  for (std::size_t i = 0; leg.Selected && i < leg.Selected->size(); ++i)
+  {
+    workspace.IsSelected[static_cast<std::size_t>((*leg.Selected)[i])] = true;
+  }
+}
+
+//------------------------------------------------------------------------------
+void RefractedLegEntries::CountEntries(
+  Workspace& workspace, InterpolatedRays::NumbersOfEntries& numbers) const
+{
+  for (std::size_t frame = 0; frame < workspace.Frames.size(); ++frame)
+  {
+    for (Workspace::Group& group : workspace.Frames[frame])
+    {
+      this->FindEntries(static_cast<int>(frame), group, workspace);
+      for (std::size_t block = 0; block < group.NumberOfBlocks; ++block)
+      {
+        const std::size_t first = LineBlock::Size * block;
+        const auto count = static_cast<std::size_t>(group.Blocks[block].Count);
+        for (std::size_t line = first; line < first + count; ++line)
+        {
+          numbers[static_cast<std::size_t>(group.Origins[line].Pixel)] +=
+            group.Entries.GetBegin(line + 1) - group.Entries.GetBegin(line);
+        }
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void RefractedLegEntries::FindLines(
+  const TileLeg& leg, const PacketJob& job, JoinedRays& joined, Workspace& workspace) const
+{
   for (auto& groups : workspace.Frames)
   {
     for (Workspace::Group& group : groups)
@@ -270,10 +316,15 @@ void RefractedLegEntries::Collect(
 }
 
 //------------------------------------------------------------------------------
-/** Sets the entries of the workspace to the entries of a group's lines. */
+/** Finds the entries of a group's lines, if that has not been done. */
 void RefractedLegEntries::FindEntries(
-  int frame, const Workspace::Group& group, Workspace& workspace) const
+  int frame, Workspace::Group& group, Workspace& workspace) const
 {
+  if (group.HasEntries || group.NumberOfBlocks == 0)
+  {
+    return;
+  }
+  group.HasEntries = true;
   RayBundleEntries::Workspace& found = workspace.Faces;
   this->Entries[static_cast<std::size_t>(frame)].Collect(
     group.Blocks.data(), group.NumberOfBlocks, found);
@@ -281,14 +332,13 @@ void RefractedLegEntries::FindEntries(
   {
     found.Add(inside.Line, inside.Entry);
   }
-  workspace.Entries.Set(LineBlock::Size * group.NumberOfBlocks, found.Hits.data(),
-    found.NumberOfHits, found.Faces.data());
+  group.Entries.Set(LineBlock::Size * group.NumberOfBlocks, found.Hits.data(), found.NumberOfHits,
+    found.Faces.data());
 }
 
 //------------------------------------------------------------------------------
-/** Sets the batch of the workspace to the lines of a group that have entries. */
-void RefractedLegEntries::SetBatch(
-  int frame, const Workspace::Group& group, Workspace& workspace) const
+/** Sets the batch of the workspace to the selected lines of a group that have entries. */
+void RefractedLegEntries::SetBatch(int frame, Workspace::Group& group, Workspace& workspace) const
 {
   this->FindEntries(frame, group, workspace);
   LegBatch& batch = workspace.Batch;
@@ -300,19 +350,20 @@ void RefractedLegEntries::SetBatch(
     for (int i = 0; i < lines.Count; ++i)
     {
       const std::size_t line = LineBlock::Size * block + static_cast<std::size_t>(i);
-      const std::int32_t first = workspace.Entries.GetBegin(line);
-      const std::int32_t end = workspace.Entries.GetBegin(line + 1);
-      if (first < end)
+      const std::int32_t first = group.Entries.GetBegin(line);
+      const std::int32_t end = group.Entries.GetBegin(line + 1);
+      const LegBatch::Origin& origin = group.Origins[line];
+      if (first < end && workspace.IsSelected[static_cast<std::size_t>(origin.Pixel)])
       {
         workspace.Lines.push_back(static_cast<std::int32_t>(line));
-        batch.Origins.push_back(group.Origins[line]);
+        batch.Origins.push_back(origin);
         batch.Rays.push_back(lines.GetRay(i));
         batch.Rays.back().FirstEntry = first;
         batch.Rays.back().EndEntry = end;
       }
     }
   }
-  batch.Entries = workspace.Entries.GetEntries().data();
+  batch.Entries = group.Entries.GetEntries().data();
 }
 
 //------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Simd/InstructionSets.h"
+#include "Volume/Caster/InterpolatedRays.h"
 #include "Volume/Caster/JoinedRays.h"
 #include "Volume/Caster/LegBatch.h"
 #include "Volume/Caster/LegFrame.h"
@@ -84,7 +85,10 @@ public:
       /** The first NumberOfBlocks are in use. */
       std::vector<LineBlock> Blocks;
       std::size_t NumberOfBlocks = 0;
-      /** True once the group was in a batch. */
+      /** Entries of the lines, once they have been found. */
+      EntryLists Entries;
+      bool HasEntries = false;
+      /** True once the group was in a batch, since the lines to be cast were chosen. */
       bool IsTaken = false;
       /** LineBlock::Size per block. */
       std::vector<LegBatch::Origin> Origins;
@@ -128,7 +132,8 @@ public:
     std::array<PacketEntry, LegBlock::Size> EntriesInside;
 
     RayBundleEntries::Workspace Faces;
-    EntryLists Entries;
+    /** False for rays of the tile whose lines are not cast now; TileLeg::Selected. */
+    std::array<bool, RefractedRayTiles::RaysOfTile> IsSelected;
     LegBatch Batch;
     /** Kind of the batch's group, and the line of each of its rays. */
     unsigned int BatchKind = 0;
@@ -136,11 +141,14 @@ public:
   };
 
   /**
-   * Finds the lines of a leg of a tile.
+   * Finds the lines of a leg of a tile, unless they are listed (TileLeg::IsListed), and chooses
+   * those that are cast.
    * @param joined rays up to this leg; gets the ends of lines that are not cast.
    */
   void Collect(
     const TileLeg& leg, const PacketJob& job, JoinedRays& joined, Workspace& workspace) const;
+  /** Finds the entries of all lines that were collected, and adds their numbers by ray. */
+  void CountEntries(Workspace& workspace, InterpolatedRays::NumbersOfEntries& numbers) const;
   /** Lines in a frame that remain to be cast; null if there are none. */
   const LegBatch* NextBatch(int frame, Workspace& workspace) const;
   /**
@@ -151,14 +159,16 @@ public:
   bool TakeBack(int frame, std::size_t ray, Workspace& workspace) const;
 
 private:
+  void FindLines(
+    const TileLeg& leg, const PacketJob& job, JoinedRays& joined, Workspace& workspace) const;
   void SiftLegs(
     const TileLeg& leg, const PacketJob& job, JoinedRays& joined, Workspace& workspace) const;
   void SetParts(const TileLeg& leg, LegBlock& legs) const;
   bool FindEntryInside(const LegBlock& legs, int ray, std::int32_t end, PacketEntry& entry) const;
   void GroupLegs(Workspace& workspace) const;
   void AddToGroup(unsigned int number, LegBlock& chosen, Workspace& workspace) const;
-  void FindEntries(int frame, const Workspace::Group& group, Workspace& workspace) const;
-  void SetBatch(int frame, const Workspace::Group& group, Workspace& workspace) const;
+  void FindEntries(int frame, Workspace::Group& group, Workspace& workspace) const;
+  void SetBatch(int frame, Workspace::Group& group, Workspace& workspace) const;
 
   RefractedScene Scene;
   /** Box about the boundary of the mesh, in the frame of the view. */

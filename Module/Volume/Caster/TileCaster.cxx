@@ -308,35 +308,50 @@ TileLeg TileCaster::FirstLeg(int tile, const float* opaqueDepth) const
 /** Casts the first leg and all further ones of a tile. */
 void TileCaster::CastLegs(TileLeg leg, TileWork& work) const
 {
-  const LegRange& drawn = this->Input.Refracted.Drawn;
-  const int legs = std::min(this->Legs.GetNumberOfLegs(leg.Tile), drawn.End);
+  const int legs = std::min(this->Legs.GetNumberOfLegs(leg.Tile), this->Input.Refracted.Drawn.End);
   for (; leg.Number < legs; ++leg.Number)
   {
-    if (leg.Number < drawn.First)
-    {
-      work.Buffers.Joined.SkipLeg();
-    }
-    else if (leg.Number == 0)
-    {
-      this->CastLeg(this->Sight, work.Buffers.Sight, leg, work);
-    }
-    else
-    {
-      this->CastLeg(*this->Refracted, work.Buffers.Refracted, leg, work);
-    }
+    this->CastOneLeg(leg, work);
   }
+}
+
+//------------------------------------------------------------------------------
+/** Casts a leg, or passes it if it is in front of those that are drawn. */
+void TileCaster::CastOneLeg(const TileLeg& leg, TileWork& work) const
+{
+  if (leg.Number < this->Input.Refracted.Drawn.First)
+  {
+    work.Buffers.Joined.SkipLeg();
+  }
+  else if (leg.Number == 0)
+  {
+    this->CastLeg(this->Sight, work.Buffers.Sight, leg, work);
+  }
+  else
+  {
+    this->CastLeg(*this->Refracted, work.Buffers.Refracted, leg, work);
+  }
+}
+
+//------------------------------------------------------------------------------
+/** First leg, from `leg` on, of a tile's rays that may meet the mesh; their number if none does. */
+int TileCaster::FindShowingLeg(int tile, int leg) const
+{
+  const int legs = this->Legs.GetNumberOfLegs(tile);
+  while (leg < legs && !(leg == 0 ? this->Sight.MayShow(tile) : this->Legs.MayShow(leg, tile)))
+  {
+    ++leg;
+  }
+  return leg;
 }
 
 //------------------------------------------------------------------------------
 /** True if several legs of a tile's rays may meet the mesh, or if a medium fades one of them. */
 bool TileCaster::JoinsLegs(int tile) const
 {
-  int meeting = this->Sight.MayShow(tile) ? 1 : 0;
-  for (int leg = 1; leg < this->Legs.GetNumberOfLegs(tile); ++leg)
-  {
-    meeting += this->Legs.MayShow(leg, tile) ? 1 : 0;
-  }
-  return this->Legs.GetNumberOfLegs(tile) > 1 && (meeting > 1 || this->Input.Medium);
+  const int legs = this->Legs.GetNumberOfLegs(tile);
+  const int first = this->FindShowingLeg(tile, 0);
+  return legs > 1 && (this->Input.Medium || this->FindShowingLeg(tile, first + 1) < legs);
 }
 
 //------------------------------------------------------------------------------
@@ -358,7 +373,7 @@ RayStatistics TileCaster::Cast(
   {
     workspace.Joined.Clear(work.Job.Blending);
   }
-  if (this->Interpolates(tile))
+  if (this->Input.Interpolating && this->Interpolates(work.Job))
   {
     this->CastSome(this->FirstLeg(tile, opaqueDepth), image, work);
     return work.Sums;
@@ -373,33 +388,76 @@ RayStatistics TileCaster::Cast(
 
 //------------------------------------------------------------------------------
 /**
- * True if rays of a tile may be interpolated. Isosurfaces end at outlines, most of which would be
- * found, but not small pieces; and most of their rays would have to be cast.
+ * True if rays may be interpolated. Isosurfaces end at outlines, most of which would be found, but
+ * not small pieces; and most of their rays would have to be cast. Legs that are joined are cast one
+ * after the other, so that the colours of rays are known too late.
  */
-bool TileCaster::Interpolates(int tile) const
+bool TileCaster::Interpolates(const PacketJob& job) const
 {
-  return this->Input.Interpolating && this->Legs.GetNumberOfLegs(tile) == 1 &&
-    GetBlendModel(this->Input.Blending).Subject != BlendSubject::Surfaces;
+  return !job.KeepsValues && GetBlendModel(this->Input.Blending).Subject != BlendSubject::Surfaces;
 }
 
 //------------------------------------------------------------------------------
-/** Casts rays of a tile and interpolates the others. @param leg the only leg of its rays. */
+/**
+ * Lists the lines of a leg of all rays of a tile, and the numbers of their entries. Rays that end
+ * at the next interface have other numbers than those that pass it.
+ */
+void TileCaster::ListEntries(const TileLeg& leg, TileWork& work) const
+{
+  Workspace& workspace = work.Buffers;
+  InterpolatedRays::NumbersOfEntries& numbers = workspace.NumbersOfEntries;
+  if (leg.Number == 0)
+  {
+    this->GetRaster().CollectEntries(leg.Tile, workspace.Sight.Raster);
+    const EntryLists& lists = workspace.Sight.Raster.Lists;
+    for (std::size_t ray = 0; ray < numbers.size(); ++ray)
+    {
+      numbers[ray] = lists.GetBegin(ray + 1) - lists.GetBegin(ray);
+    }
+  }
+  else
+  {
+    numbers.fill(0);
+    this->Refracted->Collect(leg, work.Job, workspace.Joined, workspace.Refracted);
+    this->Refracted->CountEntries(workspace.Refracted, numbers);
+  }
+  const RefractedRay* next = leg.Number + 1 < this->Legs.GetNumberOfLegs()
+    ? this->Legs.GetTile(leg.Number + 1, leg.Tile)
+    : nullptr;
+  for (std::size_t ray = 0; next && ray < numbers.size(); ++ray)
+  {
+    constexpr std::int32_t ending = 1 << 16;
+    numbers[ray] += numbers[ray] > 0 && next[ray].MeetsInterface() ? ending : 0;
+  }
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Casts rays of a tile of which one leg at most may meet the mesh, and interpolates the others.
+ * @param leg their first leg.
+ */
 void TileCaster::CastSome(TileLeg leg, float* image, TileWork& work) const
 {
-  if (!this->Sight.MayShow(leg.Tile))
+  const LegRange& drawn = this->Input.Refracted.Drawn;
+  const int showing = this->FindShowingLeg(leg.Tile, 0);
+  if (showing < drawn.First || showing >= std::min(this->Legs.GetNumberOfLegs(leg.Tile), drawn.End))
   {
     return;
   }
-  BoundaryRaster::Workspace& found = work.Buffers.Sight.Raster;
+  for (; leg.Number < showing; ++leg.Number)
+  {
+    this->CastOneLeg(leg, work); // nothing but the places where the next leg begins
+  }
+  this->ListEntries(leg, work);
   InterpolatedRays& rays = work.Buffers.Interpolated;
-  this->GetRaster().CollectEntries(leg.Tile, found);
-  rays.Begin({ leg.Box, &found.Lists, &this->Legs.GetSight(), leg.OpaqueDepth, image,
-    this->Legs.GetWidth() });
+  rays.Begin(
+    { leg.Box, &work.Buffers.NumbersOfEntries, showing == 0 ? &this->Legs.GetSight() : nullptr,
+      leg.OpaqueDepth, image, this->Legs.GetWidth() });
   leg.Selected = &rays.GetSelected();
   leg.IsListed = true;
   do
   {
-    this->CastLegs(leg, work);
+    this->CastOneLeg(leg, work);
   } while (rays.SelectMore());
   const std::int64_t interpolated = rays.GetNumberOfInterpolated();
   work.Sums.Interpolated += interpolated;

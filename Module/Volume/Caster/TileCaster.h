@@ -102,7 +102,8 @@ public:
     int RaysAcross = 1;
     /**
      * Whether Cast() may interpolate rays that differ little (InterpolatedRays), which must be
-     * zero in its image. Rays of isosurfaces and rays that interfaces refract are cast.
+     * zero in its image. Rays of isosurfaces, and of tiles in which several legs may meet the mesh,
+     * are cast.
      */
     bool Interpolating = false;
     /** Rays of the pixels' centres, and the tiles for which Refine() is called. */
@@ -153,6 +154,7 @@ public:
     JoinedRays Joined;
     PixelRays Refining;
     InterpolatedRays Interpolated;
+    InterpolatedRays::NumbersOfEntries NumbersOfEntries;
     /** Values of a batch that is measured, and the measurements of the tile. */
     std::vector<float> Values;
     std::vector<RayEventState> EventStates;
@@ -193,10 +195,13 @@ private:
   struct TileWork;
   void SetPictureOptics(PacketJob& job) const;
   TileLeg FirstLeg(int tile, const float* opaqueDepth) const;
+  int FindShowingLeg(int tile, int leg) const;
   bool JoinsLegs(int tile) const;
-  bool Interpolates(int tile) const;
+  bool Interpolates(const PacketJob& job) const;
+  void ListEntries(const TileLeg& leg, TileWork& work) const;
   void CastSome(TileLeg leg, float* image, TileWork& work) const;
   void CastLegs(TileLeg leg, TileWork& work) const;
+  void CastOneLeg(const TileLeg& leg, TileWork& work) const;
   template <class Entries>
   void CastLeg(const Entries& entries, typename Entries::Workspace& found, const TileLeg& leg,
     TileWork& work) const;

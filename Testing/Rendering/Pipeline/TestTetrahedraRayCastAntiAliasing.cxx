@@ -402,3 +402,26 @@ TEST(TetrahedraRayCastAntiAliasing, OutlinesInAMultisampledWindow)
     EXPECT_GT(between, Size);
   }
 }
+
+/**
+ * Depths that a rasteriser on the processor reads anyway, to see whether samples differ, tell that
+ * the next frame is the same. Without several samples, they are not read for a first frame.
+ */
+TEST(TetrahedraRayCastAntiAliasing, DepthsOfAMultisampledWindowAreRead)
+{
+  for (const int samples : { 0, 4 })
+  {
+    RayCastScene scene(MakeBlock(2, ConstantField(1.0)), MakeConstantProperty(1.0, 1, 1, 1, 1.0),
+      Size, Size, samples);
+    scene.GetRayCaster()->SetBackend(Mapper::OPENGL);
+    const auto castImages = [&scene]
+    {
+      scene.GetWindow()->Render();
+      return scene.GetRayCaster()->GetStatistic("NumberOfCastImages");
+    };
+    const double first = castImages();
+    const std::string device = scene.GetWindow()->ReportCapabilities();
+    const bool reads = samples > 0 && device.find("llvmpipe") != std::string::npos;
+    EXPECT_EQ(castImages(), first + (reads ? 0 : 1)) << samples;
+  }
+}

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Picking, level of detail during interaction, translucent neighbours.
+#include "MembraneScene.h"
 #include "RayCastScene.h"
 
 #include <vtkHardwareSelector.h>
@@ -316,6 +317,39 @@ TEST(TetrahedraRayCastDetail, RaysOfAMovingImageAreInterpolated)
       largest = std::max(largest, std::abs(moving[i] - truth[i]));
     }
     EXPECT_LE(largest, std::sqrt(3.0f) / 255.0f);
+    EXPECT_GT(largest, 0.0f);
+  }
+}
+
+// The same for rays behind a membrane above the mesh. Turned round, the camera is in front of the
+// mesh, and the membrane behind it.
+TEST(TetrahedraRayCastDetail, RefractedRaysOfAMovingImageAreInterpolated)
+{
+  RayCastScene scene(MakeBlock(6, WavyField(3.0)), Smooth(), 4 * Size, 4 * Size);
+  vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
+  mapper->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
+  mapper->SetMaximumImageSampleDistance(2.0f);
+  mapper->SetMembraneData(MakeDomeCase(1.4, 8.0, 4.5, 16).Mesh);
+  scene.GetWindow()->SetDesiredUpdateRate(1e6); // more than can be reached
+  for (const double elevation : { 60.0, -60.0 })
+  {
+    LookAt(scene.GetRenderer(), Bounds, 20.0, elevation);
+    mapper->SetAutoAdjustSampleDistances(false);
+    mapper->SetImageSampleDistance(2.0f);
+    const auto truth = scene.RenderFloat().Rgba;
+    const vtkTypeInt64 rays = mapper->GetNumberOfRays();
+    EXPECT_EQ(mapper->GetStatistic("NumberOfInterpolatedRays"), 0.0);
+    mapper->SetAutoAdjustSampleDistances(true);
+    const auto moving = scene.RenderFloat().Rgba;
+    EXPECT_EQ(mapper->GetNumberOfRays(), rays) << elevation;
+    EXPECT_GT(mapper->GetStatistic("NumberOfInterpolatedRays"), 0.1 * static_cast<double>(rays));
+    float largest = 0.0f;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+    {
+      largest = std::max(largest, std::abs(moving[i] - truth[i]));
+    }
+    // Moving images also leave 1/512 of the light.
+    EXPECT_LE(largest, (std::sqrt(3.0f) + 0.5f) / 255.0f) << elevation;
     EXPECT_GT(largest, 0.0f);
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays refracted at a membrane inside the mesh, with the kernel alone.
+// Rays refracted at a membrane inside the mesh or in front of it, with the kernel alone.
 #include "KernelMeshes.h"
 #include "KernelSurfaces.h"
 
@@ -22,11 +22,14 @@ namespace
 
 constexpr int Size = 64;
 
-/** A mesh seen along z, cut in the middle by a membrane with a slope of 1 / 4. */
+/**
+ * A mesh seen along z through a membrane with a slope of 1 / 4, which cuts it in the middle or is
+ * nearer by `lift`.
+ */
 class RefractedPicture
 {
 public:
-  explicit RefractedPicture(const MeshArrays& mesh)
+  explicit RefractedPicture(const MeshArrays& mesh, double lift = 0.0)
   {
     EXPECT_EQ(this->Mesh.Build(mesh.View()), MeshStatus::Ok);
     this->Tree.Build(this->Mesh);
@@ -34,7 +37,11 @@ public:
     {
       this->Scalars.push_back(static_cast<float>(this->Mesh.GetPosition(v).x));
     }
-    const std::vector<double> points{ -2, -2, -0.1, 3, -2, -0.1, 3, 3, 1.15, -2, 3, 1.15 };
+    std::vector<double> points{ -2, -2, -0.1, 3, -2, -0.1, 3, 3, 1.15, -2, 3, 1.15 };
+    for (std::size_t z = 2; z < points.size(); z += 3)
+    {
+      points[z] -= lift;
+    }
     const std::vector<std::int64_t> triangles{ 0, 1, 2, 0, 2, 3 };
     const MembraneInput input{ points.data(), 4, triangles.data(), 2, nullptr, nullptr };
     const TestSurface surface(input);
@@ -60,18 +67,15 @@ public:
   {
     this->Scene.Refracted.BeginsInside = beginsInside;
     this->Scene.Set = set;
-    std::vector<float> image(std::size_t{ 4 } * Size * Size, 0.0f);
-    const TileCaster caster(this->Scene);
-    TileCaster::Workspace workspace;
-    sums = RayStatistics();
-    for (int tile = 0; tile < caster.GetNumberOfTiles(); ++tile)
-    {
-      const RayStatistics ofTile = caster.Cast(tile, nullptr, image.data(), workspace);
-      sums.Steps += ofTile.Steps;
-      sums.Rays += ofTile.Rays;
-      sums.Lost += ofTile.Lost;
-    }
-    return image;
+    return this->Cast(nullptr, sums);
+  }
+  /** @param depths of the window. */
+  std::vector<float> CastInterpolating(
+    bool interpolating, InstructionSet set, const std::vector<float>& depths, RayStatistics& sums)
+  {
+    this->Scene.Interpolating = interpolating;
+    this->Scene.Set = set;
+    return this->Cast(depths.data(), sums);
   }
 
   RayLegs GetLegs() const
@@ -86,6 +90,23 @@ public:
   RefractionFrames Frames;
 
 private:
+  std::vector<float> Cast(const float* depths, RayStatistics& sums)
+  {
+    std::vector<float> image(std::size_t{ 4 } * Size * Size, 0.0f);
+    const TileCaster caster(this->Scene);
+    TileCaster::Workspace workspace;
+    sums = RayStatistics();
+    for (int tile = 0; tile < caster.GetNumberOfTiles(); ++tile)
+    {
+      const RayStatistics ofTile = caster.Cast(tile, depths, image.data(), workspace);
+      sums.Steps += ofTile.Steps;
+      sums.Rays += ofTile.Rays;
+      sums.Lost += ofTile.Lost;
+      sums.Interpolated += ofTile.Interpolated;
+    }
+    return image;
+  }
+
   BoundaryTree Tree;
   std::vector<float> Scalars;
   PacketTables Tables;
@@ -137,6 +158,52 @@ TEST(RefractedRays, NoneIsLostInAMeshTurnedInsideOut)
     EXPECT_GT(sums.Rays, 1000);
     EXPECT_EQ(sums.Lost, 0) << beginsInside;
   }
+}
+
+// In front of the mesh, only the legs behind the membrane meet it. One pixel has an opaque object,
+// between rays that are cast.
+TEST(RefractedRays, ThoseBehindAMembraneInFrontAreInterpolated)
+{
+  RefractedPicture picture(KuhnGrid(6), 1.5);
+  std::vector<float> depths(std::size_t{ Size } * Size, 1.0f);
+  const std::size_t opaque = std::size_t{ 35 } * Size + 37;
+  const RayFrame& frame = picture.Frame;
+  // Rays along z: depths are affine in window depths.
+  const double first = frame.DepthAt(-1.0);
+  depths[opaque] = static_cast<float>(-0.5 * first / (frame.DepthAt(0.0) - first));
+  for (const InstructionSet set : GetInstructionSets())
+  {
+    RayStatistics all;
+    RayStatistics some;
+    const std::vector<float> truth = picture.CastInterpolating(false, set, depths, all);
+    const std::vector<float> image = picture.CastInterpolating(true, set, depths, some);
+    EXPECT_LT(truth[4 * opaque + 3], 0.8f * truth[4 * opaque - 1]) << NameOf(set);
+    EXPECT_EQ(all.Interpolated, 0);
+    EXPECT_GT(some.Interpolated, all.Rays / 3) << NameOf(set);
+    EXPECT_LT(some.Steps, all.Steps * 2 / 3) << NameOf(set);
+    EXPECT_EQ(some.Rays, all.Rays);
+    EXPECT_NEAR(image[4 * opaque + 3], truth[4 * opaque + 3], 1e-6f);
+    // One of three colours, whose quadratic mean is the bound.
+    EXPECT_LE(
+      LargestDifference(image, truth), 0.5f * LargestInterpolatedDifference * std::sqrt(3.0f));
+    for (std::size_t i = 0; i < image.size(); ++i)
+    {
+      ASSERT_EQ(image[i] == 0.0f, truth[i] == 0.0f) << i;
+    }
+  }
+}
+
+// Both legs of a ray meet a mesh that the membrane cuts: they are joined, and no ray is left out.
+TEST(RefractedRays, ThoseOfAMembraneInTheMeshAreCast)
+{
+  RefractedPicture picture(KuhnGrid(6));
+  const std::vector<float> depths(std::size_t{ Size } * Size, 1.0f);
+  RayStatistics all;
+  RayStatistics some;
+  const InstructionSet set = BestInstructionSet();
+  const std::vector<float> truth = picture.CastInterpolating(false, set, depths, all);
+  EXPECT_EQ(picture.CastInterpolating(true, set, depths, some), truth);
+  EXPECT_EQ(some.Interpolated, 0);
 }
 
 TEST(RefractedRays, LinesForShadersAreTheRays)
