@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <sstream>
 
@@ -598,32 +599,34 @@ bool RefractionScene::SetView(const std::vector<ViewPlane>& planes)
     return curved ? BoundBulge(curved->GetPatches().GetPatch(static_cast<std::int32_t>(facet)))
                   : 0.0;
   };
-  std::vector<double> reaches;
-  std::vector<double> heights; // above all planes, vertex by vertex
-  for (const glm::dvec3& position : membrane.GetPositions())
+  // Bits of the planes that a vertex is behind. With NaN nothing is known, and no bit is set.
+  const std::vector<glm::dvec3>& positions = membrane.GetPositions();
+  const auto getHeight = [&membrane, &positions](const ViewPlane& plane, std::size_t vertex)
+  { return glm::dot(plane.Normal, positions[vertex] + membrane.GetOrigin()) + plane.Offset; };
+  std::vector<std::uint32_t> behind(positions.size(), 0);
+  for (std::size_t k = 0; k < planes.size(); ++k)
   {
-    const glm::dvec3 point = position + membrane.GetOrigin();
-    reaches.push_back(glm::length(point));
-    for (const ViewPlane& plane : planes)
+    for (std::size_t i = 0; i < positions.size(); ++i)
     {
-      heights.push_back(glm::dot(plane.Normal, point) + plane.Offset);
+      behind[i] |= getHeight(planes[k], i) < 0.0 ? 1u << k : 0u;
     }
   }
   std::vector<bool> inView(facets.size(), true);
   bool any = false;
   for (std::size_t i = 0; i < facets.size(); ++i)
   {
-    for (std::size_t k = 0; k < planes.size() && inView[i]; ++k)
+    const auto vertex = [&facets, i](std::size_t k)
+    { return static_cast<std::size_t>(facets[i][k]); };
+    const std::uint32_t all = behind[vertex(0)] & behind[vertex(1)] & behind[vertex(2)];
+    for (std::size_t k = 0; all != 0 && k < planes.size() && inView[i]; ++k)
     {
       double most = std::numeric_limits<double>::lowest();
       double reach = std::fabs(planes[k].Offset);
-      for (const std::int32_t vertex : facets[i])
+      for (std::size_t corner = 0; corner < 3; ++corner)
       {
-        const auto v = static_cast<std::size_t>(vertex);
-        most = std::max(most, heights[v * planes.size() + k]);
-        reach = std::max(reach, reaches[v]);
+        most = std::max(most, getHeight(planes[k], vertex(corner)));
+        reach = std::max(reach, glm::length(positions[vertex(corner)] + membrane.GetOrigin()));
       }
-      // With NaN nothing is known, so the facet counts as in view.
       inView[i] = !(most < -rounding * reach && most < -getBulge(i) - rounding * reach);
     }
     any = any || !inView[i];

@@ -340,20 +340,7 @@ private:
     {
       return;
     }
-    to->InterpolateAllocate(fitting, static_cast<vtkIdType>(origins.size()));
-    vtkNew<vtkIdList> ids;
-    for (std::size_t i = 0; i < origins.size(); ++i)
-    {
-      const ImagePoint& point = *origins[i];
-      double weights[3];
-      ids->Reset();
-      for (std::size_t k = 0; k < point.GetNumberOfSources(); ++k)
-      {
-        ids->InsertNextId(point.Source[k]);
-        weights[k] = point.Weight[k];
-      }
-      to->InterpolatePoint(fitting, static_cast<vtkIdType>(i), ids, weights);
-    }
+    InterpolateTuples(fitting, origins, to);
     this->CopyIds(fitting);
   }
 

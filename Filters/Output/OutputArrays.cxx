@@ -7,9 +7,11 @@
 #include "Refraction/Membrane/Optics.h"
 #include "Refraction/Membrane/VirtualNormal.h"
 
+#include "vtkAOSDataArrayTemplate.h"
 #include "vtkAlgorithm.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
+#include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -23,6 +25,58 @@
 
 namespace meniscus
 {
+namespace
+{
+
+// The list of an array of floats or of doubles with a name, which most arrays are.
+template <typename Value>
+vtkAOSDataArrayTemplate<Value>* AsPlain(vtkAbstractArray* array)
+{
+  return array && array->GetName() ? vtkAOSDataArrayTemplate<Value>::FastDownCast(array) : nullptr;
+}
+
+bool IsPlain(vtkAbstractArray* array)
+{
+  return AsPlain<float>(array) || AsPlain<double>(array);
+}
+
+// Sums in double precision, as VTK does. Does nothing for arrays of other values.
+template <typename Value>
+void InterpolateValues(
+  vtkAbstractArray* from, const std::vector<const ImagePoint*>& points, vtkAbstractArray* to)
+{
+  auto* source = AsPlain<Value>(from);
+  auto* target = AsPlain<Value>(to);
+  if (!source || !target)
+  {
+    return;
+  }
+  target->SetNumberOfTuples(static_cast<vtkIdType>(points.size()));
+  const auto components = static_cast<std::size_t>(source->GetNumberOfComponents());
+  const Value* const values = source->GetPointer(0);
+  Value* const result = target->GetPointer(0);
+  PointLoop(points.size(),
+    [&points, components, values, result](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const ImagePoint& point = *points[i];
+        const std::size_t count = point.GetNumberOfSources();
+        for (std::size_t c = 0; c < components; ++c)
+        {
+          double sum = 0.0;
+          for (std::size_t k = 0; k < count; ++k)
+          {
+            const auto id = static_cast<std::size_t>(point.Source[k]);
+            sum += point.Weight[k] * static_cast<double>(values[components * id + c]);
+          }
+          result[components * i + c] = static_cast<Value>(sum);
+        }
+      }
+    });
+}
+
+}
 
 //------------------------------------------------------------------------------
 bool OutputOptions::operator==(const OutputOptions& other) const
@@ -279,6 +333,37 @@ void CopyTuples(vtkDataSetAttributes* from, vtkIdType tuples, const std::vector<
     {
       to->SetActiveAttribute(-1, vtkDataSetAttributes::GLOBALIDS);
     }
+  }
+}
+
+//------------------------------------------------------------------------------
+void InterpolateTuples(vtkDataSetAttributes* from, const std::vector<const ImagePoint*>& points,
+  vtkDataSetAttributes* to)
+{
+  to->InterpolateAllocate(from, static_cast<vtkIdType>(points.size()));
+  bool arePlain = true;
+  for (int k = 0; k < to->GetNumberOfArrays(); ++k)
+  {
+    arePlain = arePlain && IsPlain(to->GetAbstractArray(k));
+  }
+  for (int k = 0; k < to->GetNumberOfArrays() && arePlain; ++k)
+  {
+    vtkAbstractArray* const target = to->GetAbstractArray(k);
+    vtkAbstractArray* const source = from->GetAbstractArray(target->GetName());
+    InterpolateValues<float>(source, points, target);
+    InterpolateValues<double>(source, points, target);
+  }
+  vtkNew<vtkIdList> ids;
+  for (std::size_t i = 0; i < points.size() && !arePlain; ++i)
+  {
+    double weights[3];
+    ids->Reset();
+    for (std::size_t k = 0; k < points[i]->GetNumberOfSources(); ++k)
+    {
+      ids->InsertNextId(points[i]->Source[k]);
+      weights[k] = points[i]->Weight[k];
+    }
+    to->InterpolatePoint(from, static_cast<vtkIdType>(i), ids, weights);
   }
 }
 

@@ -105,4 +105,11 @@ int TakeFittingArrays(vtkDataSetAttributes* from, vtkIdType tuples, vtkDataSetAt
 void CopyTuples(vtkDataSetAttributes* from, vtkIdType tuples, const std::vector<vtkIdType>& sources,
   vtkDataSetAttributes* to);
 
+/**
+ * Interpolates the tuples of the points' sources, by vtkDataSetAttributes::InterpolatePoint or with
+ * the same result.
+ */
+void InterpolateTuples(vtkDataSetAttributes* from, const std::vector<const ImagePoint*>& points,
+  vtkDataSetAttributes* to);
+
 }

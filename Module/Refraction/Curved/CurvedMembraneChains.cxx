@@ -210,6 +210,7 @@ void CurvedMembraneSolver::SolveAllBetween(const PointBetween* points, std::size
 {
   std::array<SightTrail, MostBetween> trails;
   std::vector<SightTrail*> open;
+  open.reserve(count);
   for (std::size_t i = 0; i < count; ++i)
   {
     *points[i].Image = VirtualVertex();

@@ -129,15 +129,15 @@ bool Covers(
 
 // Extends a range to the slopes along an axis in a patch: those at corners and middles of its
 // sides, and the bulge of higher degree between them.
-void AddSlopes(const std::array<glm::dvec2, 6>& slope, int axis, float& lowest, float& highest)
+void AddSlopes(const std::array<glm::dvec2, 6>& slope, int axis, double& lowest, double& highest)
 {
   for (std::size_t k = 0; k < 3; ++k)
   {
     const double mean = 0.5 * (slope[(k + 1) % 3][axis] + slope[(k + 2) % 3][axis]);
     const double bend = slope[k + 3][axis] - mean;
     const double rest = (1.0 + PatchRoots::HigherDegree) * std::fabs(bend);
-    lowest = std::min(lowest, RoundDown(std::min(slope[k][axis], mean + bend) - rest));
-    highest = std::max(highest, RoundUp(std::max(slope[k][axis], mean + bend) + rest));
+    lowest = std::min(lowest, std::min(slope[k][axis], mean + bend) - rest);
+    highest = std::max(highest, std::max(slope[k][axis], mean + bend) + rest);
   }
 }
 
@@ -196,31 +196,38 @@ void InjectivityGrid::Merge(Cell& cell, const Cell& other)
 // Where a place of the patch has no refracted ray, slopes are unbounded and the cell proves
 // nothing.
 InjectivityGrid::Cell InjectivityGrid::Judge(
-  const CurvedPatch& patch, const std::array<SlopedRay, 6>& rays) const
+  const std::array<glm::dvec3, 3>& corners, const std::array<const SlopedRay*, 6>& rays) const
 {
   std::array<glm::dvec2, 6> base;
   std::array<glm::dvec2, 6> slope;
   Cell cell = MakeEmpty();
+  glm::dvec3 least(std::numeric_limits<double>::max());
+  glm::dvec3 most(std::numeric_limits<double>::lowest());
   for (std::size_t i = 0; i < 6; ++i)
   {
-    if (!rays[i].IsThere)
+    if (!rays[i]->IsThere)
     {
       cell.Low.fill(std::numeric_limits<float>::lowest());
       cell.High.fill(std::numeric_limits<float>::max());
       cell.Slabs = 0;
       return cell;
     }
-    base[i] = rays[i].Base;
-    slope[i] = rays[i].Slope;
-    cell.Low[2] = std::min(cell.Low[2], RoundDown(rays[i].Height - this->Bulge));
-    cell.High[2] = std::max(cell.High[2], RoundUp(rays[i].Height + this->Bulge));
+    base[i] = rays[i]->Base;
+    slope[i] = rays[i]->Slope;
+    least.z = std::min(least.z, rays[i]->Height - this->Bulge);
+    most.z = std::max(most.z, rays[i]->Height + this->Bulge);
   }
-  for (std::size_t axis = 0; axis < 2; ++axis)
+  for (int axis = 0; axis < 2; ++axis)
   {
-    AddSlopes(slope, static_cast<int>(axis), cell.Low[axis], cell.High[axis]);
+    AddSlopes(slope, axis, least[axis], most[axis]);
   }
-  const glm::dmat2 sides(this->Frame.Project(patch.Corner[1] - patch.Corner[0]),
-    this->Frame.Project(patch.Corner[2] - patch.Corner[0]));
+  for (int i = 0; i < 3; ++i)
+  {
+    cell.Low[static_cast<std::size_t>(i)] = RoundDown(least[i]);
+    cell.High[static_cast<std::size_t>(i)] = RoundUp(most[i]);
+  }
+  const glm::dmat2 sides(
+    this->Frame.Project(corners[1] - corners[0]), this->Frame.Project(corners[2] - corners[0]));
   const glm::dmat2 inverse = glm::inverse(sides);
   const CornerDerivatives baseBy = Differentiate(base, inverse);
   const CornerDerivatives slopeBy = Differentiate(slope, inverse);
@@ -234,7 +241,7 @@ InjectivityGrid::Cell InjectivityGrid::Judge(
   }
   // The borders at which it holds are consecutive, and begin to hold where the rays do.
   const double own =
-    this->SlabHeight > 0.0 ? (rays[0].Height - this->LowHeight) / this->SlabHeight : 0.0;
+    this->SlabHeight > 0.0 ? (rays[0]->Height - this->LowHeight) / this->SlabHeight : 0.0;
   const int first = static_cast<int>(std::lround(std::clamp(own, 0.0, double{ Slabs })));
   if (!holdsAt(first))
   {
@@ -343,7 +350,33 @@ void InjectivityGrid::Build(const Membrane& membrane, const CurvedPatches& patch
 }
 
 //------------------------------------------------------------------------------
-// The rays at the vertices are those at the corners of all patches that meet there.
+// Rays in the middles of the edges, three for each facet. Of two facets that share an edge, only
+// the first has it.
+std::vector<InjectivityGrid::SlopedRay> InjectivityGrid::MakeEdgeRays(
+  const CurvedPatches& patches, const Media& media, const RangeLoop& loop) const
+{
+  std::vector<SlopedRay> rays(3 * patches.GetSize());
+  ForEachItem(patches.GetSize(), loop,
+    [this, &patches, &media, &rays](std::size_t i)
+    {
+      const auto facet = static_cast<std::int32_t>(i);
+      const CurvedPatch patch = patches.GetPatch(facet);
+      for (int k = 0; k < 3; ++k)
+      {
+        const std::int32_t neighbour = patches.GetNeighbour(facet, k);
+        if (neighbour == CurvedPatches::NoFacet || neighbour > facet)
+        {
+          rays[3 * i + static_cast<std::size_t>(k)] =
+            this->MakeRay(patch.EvaluateEdge(k, 0.5, 0.5), media);
+        }
+      }
+    });
+  return rays;
+}
+
+//------------------------------------------------------------------------------
+// The rays at the vertices are those at the corners of all patches that meet there, and patches
+// that share an edge have the same ray in its middle.
 std::vector<InjectivityGrid::Cell> InjectivityGrid::JudgeAll(const Membrane& membrane,
   const CurvedPatches& patches, const Media& media, const RangeLoop& loop) const
 {
@@ -354,19 +387,23 @@ std::vector<InjectivityGrid::Cell> InjectivityGrid::JudgeAll(const Membrane& mem
       atVertices[i] =
         this->MakeRay({ membrane.GetPositions()[i], membrane.GetNormals()[i] }, media);
     });
+  const std::vector<SlopedRay> onEdges = this->MakeEdgeRays(patches, media, loop);
   std::vector<Cell> judged(membrane.GetFacets().size());
   ForEachItem(judged.size(), loop,
-    [this, &membrane, &patches, &media, &atVertices, &judged](std::size_t i)
+    [this, &membrane, &patches, &atVertices, &onEdges, &judged](std::size_t i)
     {
-      const CurvedPatch patch = patches.GetPatch(static_cast<std::int32_t>(i));
       const Membrane::Facet& f = membrane.GetFacets()[i];
-      const auto atVertex = [&atVertices, &f](std::size_t k)
-      { return atVertices[static_cast<std::size_t>(f[k])]; };
-      judged[i] = this->Judge(patch,
-        { atVertex(0), atVertex(1), atVertex(2),
-          this->MakeRay(patch.EvaluateEdge(0, 0.5, 0.5), media),
-          this->MakeRay(patch.EvaluateEdge(1, 0.5, 0.5), media),
-          this->MakeRay(patch.EvaluateEdge(2, 0.5, 0.5), media) });
+      std::array<glm::dvec3, 3> corners;
+      std::array<const SlopedRay*, 6> rays;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const auto vertex = static_cast<std::size_t>(f[k]);
+        corners[k] = membrane.GetPositions()[vertex];
+        rays[k] = &atVertices[vertex];
+        rays[k + 3] =
+          &onEdges[patches.FindFirstEdge(static_cast<std::int32_t>(i), static_cast<int>(k))];
+      }
+      judged[i] = this->Judge(corners, rays);
     });
   return judged;
 }

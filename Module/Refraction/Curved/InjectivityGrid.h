@@ -70,8 +70,11 @@ private:
   static void Merge(Cell& cell, const Cell& other);
   struct SlopedRay;
   SlopedRay MakeRay(const PatchPoint& at, const Media& media) const;
+  std::vector<SlopedRay> MakeEdgeRays(
+    const CurvedPatches& patches, const Media& media, const RangeLoop& loop) const;
   /** Judges a patch by its rays at the corners and in the middles of the edges opposite to them. */
-  Cell Judge(const CurvedPatch& patch, const std::array<SlopedRay, 6>& rays) const;
+  Cell Judge(
+    const std::array<glm::dvec3, 3>& corners, const std::array<const SlopedRay*, 6>& rays) const;
   std::vector<Cell> JudgeAll(const Membrane& membrane, const CurvedPatches& patches,
     const Media& media, const RangeLoop& loop) const;
   void FitGrid(const Membrane& membrane);

@@ -224,17 +224,18 @@ glm::dvec3 EdgeSubdivision::GetError(const glm::dvec3& drawn, const VirtualVerte
 }
 
 //------------------------------------------------------------------------------
-double EdgeSubdivision::GetSquaredSize(std::int32_t facet) const
+// True if an edge of the facet is at least that long.
+bool EdgeSubdivision::HasEdge(std::int32_t facet, double squaredLength) const
 {
   const Membrane& membrane = this->Geometry.GetMembrane();
   const Membrane::Facet& f = membrane.GetFacets()[static_cast<std::size_t>(facet)];
-  const auto squared = [&membrane, &f](std::size_t i, std::size_t j)
+  const auto isLong = [&membrane, &f, squaredLength](std::size_t i, std::size_t j)
   {
     const glm::dvec3 edge = membrane.GetPositions()[static_cast<std::size_t>(f[i])] -
       membrane.GetPositions()[static_cast<std::size_t>(f[j])];
-    return glm::dot(edge, edge);
+    return glm::dot(edge, edge) >= squaredLength;
   };
-  return std::max({ squared(0, 1), squared(1, 2), squared(2, 0) });
+  return isLong(0, 1) || isLong(1, 2) || isLong(2, 0);
 }
 
 //------------------------------------------------------------------------------
@@ -242,8 +243,8 @@ double EdgeSubdivision::GetSquaredSize(std::int32_t facet) const
 bool EdgeSubdivision::AreNeighbours(const VirtualVertex& a, const VirtualVertex& b) const
 {
   const glm::dvec3 way = a.SightPoint - b.SightPoint;
-  return a.Facet == b.Facet ||
-    glm::dot(way, way) <= std::min(this->GetSquaredSize(a.Facet), this->GetSquaredSize(b.Facet));
+  const double squared = glm::dot(way, way);
+  return a.Facet == b.Facet || (this->HasEdge(a.Facet, squared) && this->HasEdge(b.Facet, squared));
 }
 
 //------------------------------------------------------------------------------

@@ -181,7 +181,7 @@ private:
     return this->AreSampled(this->Nodes[static_cast<std::size_t>(a)].Vertex,
       this->Nodes[static_cast<std::size_t>(b)].Vertex);
   }
-  double GetSquaredSize(std::int32_t facet) const;
+  bool HasEdge(std::int32_t facet, double squaredLength) const;
   void Start(const std::array<ImagedPoint, 3>& corners, std::size_t count);
   static std::uint64_t MakeKey(std::int32_t a, std::int32_t b);
   Edge& FindEdge(std::uint64_t key);

@@ -359,6 +359,7 @@ void ObjectImages::FindStraight(const ObjectCells& cells, std::size_t begin, std
 {
   std::vector<std::array<ImagedPoint, 2>> sides;
   std::vector<std::size_t> cellOfSide;
+  sides.reserve(4 * (end - begin)); // those of quadrangles
   areStraight.assign(end - begin, false);
   for (std::size_t i = begin; i < end; ++i)
   {

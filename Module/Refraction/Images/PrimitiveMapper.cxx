@@ -133,6 +133,7 @@ void PrimitiveMapper::Map(const Context& context) const
     context.Middle, context.Padding, [&facets](std::int32_t facet) { facets.push_back(facet); });
   std::sort(facets.begin(), facets.end());
   const double inFront = this->GetLengthInFront(context);
+  this->Shared.Start();
   Meetings meetings;
   Context inPatch = context;
   inPatch.Meetings = &meetings;
@@ -213,6 +214,7 @@ void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) c
     return;
   }
   Polygon polygon;
+  polygon.reserve(whole.size() + PrimitiveConstraints);
   for (const double sign : { 1.0, -1.0 })
   {
     // A ray that meets the primitive edge-on begins a strip for either sign, which may end in the
@@ -279,6 +281,7 @@ void PrimitiveMapper::Emit(
     return;
   }
   std::vector<MappedPoint> points;
+  points.reserve(polygon.size());
   for (auto corner = polygon.begin(); corner != polygon.end();)
   {
     points.push_back(this->MakePoint(context, nodes, *corner));
@@ -311,7 +314,7 @@ void PrimitiveMapper::Emit(
   const bool facetTurned = glm::dot(facet, nodes[0].From.Ray) < 0.0;
   const bool imageTurned = (area < 0.0) != (sign < 0.0);
   const int orientation = facetTurned == imageTurned ? 1 : -1;
-  for (std::size_t i = 0; i < polygon.size(); ++i)
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
     points[i].Point.Vertex.Orientation = static_cast<signed char>(orientation);
     if (context.IsOnMembrane)
@@ -319,9 +322,17 @@ void PrimitiveMapper::Emit(
       context.IsOnMembrane->push_back((polygon[i].Limits & 1u) != 0);
     }
   }
-  context.Images->AddCell(
-    points.size(), [&points](std::size_t i) { return points[i].Point; }, !(area > 0.0),
-    context.SourceCell, orientation);
+  const auto pointOf = [&points](std::size_t i) -> const ImagePoint& { return points[i].Point; };
+  const bool turned = !(area > 0.0);
+  if (context.IsOnMembrane)
+  {
+    context.Images->AddCell(points.size(), pointOf, turned, context.SourceCell, orientation);
+  }
+  else
+  {
+    this->Shared.AddCell(
+      points.size(), pointOf, turned, context.SourceCell, orientation, *context.Images);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -15,6 +15,7 @@
 #include "Refraction/Images/ImageMesh.h"
 #include "Refraction/Images/KnownMeetings.h"
 #include "Refraction/Images/ObjectPrimitive.h"
+#include "Refraction/Images/PiecePoints.h"
 #include "Refraction/Images/SubCellBend.h"
 #include "Refraction/Images/SubCellDivision.h"
 
@@ -154,6 +155,7 @@ private:
   double Tolerance;
   SubCellDivision Division;
   mutable KnownMeetings Known;
+  mutable PiecePoints Shared;
 };
 
 }

@@ -85,6 +85,31 @@ public:
     return this->Patches[static_cast<std::size_t>(facet)].Neighbour[corner];
   }
 
+  /**
+   * Number of an edge: three times its facet and the corner opposite to it, in the first of the two
+   * facets that share it.
+   */
+  std::size_t FindFirstEdge(std::int32_t facet, int corner) const
+  {
+    const Patch& patch = this->Patches[static_cast<std::size_t>(facet)];
+    const std::int32_t other = patch.Neighbour[corner];
+    const auto own = static_cast<std::size_t>(3 * std::int64_t{ facet } + corner);
+    if (other == NoFacet || other > facet)
+    {
+      return own;
+    }
+    // The corner of the other facet that is none of the edge's ends.
+    const Patch& shared = this->Patches[static_cast<std::size_t>(other)];
+    const std::int32_t first = patch.Vertex[(corner + 1) % 3];
+    const std::int32_t last = patch.Vertex[(corner + 2) % 3];
+    std::size_t opposite = 0;
+    while (shared.Vertex[opposite] == first || shared.Vertex[opposite] == last)
+    {
+      ++opposite;
+    }
+    return 3 * static_cast<std::size_t>(other) + opposite;
+  }
+
   /** Number of edges that are straight as a fallback, each counted once per facet. */
   std::size_t GetNumberOfStraightEdges() const;
 

@@ -97,6 +97,33 @@ TEST_P(RefractedGeometryPieces, ArraysAreThoseOfTheTruePosition)
   EXPECT_LE(worstPath, 1e-9);
 }
 
+// Arrays of floats and doubles are interpolated here, and by VTK if there are others. The results
+// are the same to the last bit.
+TEST(RefractedGeometryPieceArrays, AreThoseOfVTK)
+{
+  const auto floor = MakeGrid(5, 120.0, -90.0);
+  const vtkIdType points = floor->GetNumberOfPoints();
+  vtkPointData* input = floor->GetPointData();
+  const auto value = [](vtkIdType i) { return std::sin(0.7 * static_cast<double>(i)); };
+  input->AddArray(MakeArray("Double", points, value));
+  input->AddArray(MakeArray<vtkFloatArray>("Float", points, value));
+  const auto first = MakePieces(Cases[1], floor);
+  first->Update();
+  input->AddArray(MakeArray<vtkIntArray>("Whole", points, [](vtkIdType i) { return i; }));
+  const auto second = MakePieces(Cases[1], floor);
+  second->Update();
+  vtkPolyData* own = first->GetOutput();
+  vtkPolyData* byVTK = second->GetOutput();
+  ASSERT_TRUE(byVTK->GetPointData()->HasArray("Whole"));
+  ASSERT_GT(byVTK->GetNumberOfPoints(), points);
+  ASSERT_EQ(byVTK->GetNumberOfPoints(), own->GetNumberOfPoints());
+  for (const char* const name : { "Double", "Float" })
+  {
+    ASSERT_EQ(ValuesOf(own->GetPointData()->GetArray(name)),
+      ValuesOf(byVTK->GetPointData()->GetArray(name)));
+  }
+}
+
 // Triangles of a torus about the y axis.
 vtkSmartPointer<vtkPolyData> MakeRing(const glm::dvec3& center, double radius, double thickness)
 {

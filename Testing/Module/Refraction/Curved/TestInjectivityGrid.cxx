@@ -98,6 +98,37 @@ class RefractionUnique : public ::testing::TestWithParam<UniqueCase>
 }
 
 //------------------------------------------------------------------------------
+// Both facets of an edge must name it by the same number, and have the same place and normal in its
+// middle, so that the ray there can be computed once.
+TEST(InjectivityGrid, FacetsShareTheRaysOfTheirEdges)
+{
+  HeightField field;
+  field.Amplitude = 4.0;
+  field.K = 0.03 * Pi;
+  const ReadySolver geometry(field.MakeMesh(8), { 20.0, 300.0, 10.0 });
+  const CurvedPatches& patches = geometry.GetPatches();
+  std::map<std::size_t, std::vector<PatchPoint>> edges;
+  for (std::int32_t facet = 0; facet < static_cast<std::int32_t>(patches.GetSize()); ++facet)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      edges[patches.FindFirstEdge(facet, k)].push_back(
+        patches.GetPatch(facet).EvaluateEdge(k, 0.5, 0.5));
+    }
+  }
+  int shared = 0;
+  for (const auto& [number, middles] : edges)
+  {
+    ASSERT_LE(middles.size(), 2u);
+    EXPECT_EQ(middles.front().Position, middles.back().Position);
+    EXPECT_EQ(middles.front().Normal, middles.back().Normal);
+    shared += middles.size() == 2;
+  }
+  EXPECT_EQ(edges.size(), 208u); // three sides of 128 facets, and 32 at the border
+  EXPECT_EQ(shared, 176);
+}
+
+//------------------------------------------------------------------------------
 // Each box that is reported to hold no point with several images is searched at random points.
 TEST_P(RefractionUnique, NoPointOfABoxHasSeveral)
 {
