@@ -30,6 +30,15 @@ set_tests_properties(Installed.Consumer PROPERTIES
   FIXTURES_REQUIRED installed
   TIMEOUT           600)
 
+# The command of a prefix in which Python looks for no packages.
+if (MENISCUS_WRAP_PYTHON)
+  add_test(NAME Installed.Command COMMAND "${MENISCUS_TEST_PREFIX}/bin/meniscus" --version)
+  set_tests_properties(Installed.Command PROPERTIES
+    LABELS            consumer
+    FIXTURES_REQUIRED installed
+    ENVIRONMENT       "PYTHONPATH=")
+endif ()
+
 # As a part of VTK's own build: configures the project of scripts/remote, and checks that vtk.module
 # names all modules that the classes use. An installed VTK, with all headers in one folder, does not
 # check that.

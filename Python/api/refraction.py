@@ -96,4 +96,12 @@ def _add_following(plotter, refraction, arguments):
     # In every frame, because the camera may be replaced.
     renderer.AddObserver("StartEvent", lambda caller, _: refraction.SetCamera(
         caller.GetActiveCamera()))
-    return plotter.add_mesh(refraction, **arguments)
+    try:
+        return plotter.add_mesh(refraction, **arguments)
+    except TypeError:
+        if not arguments.pop("smooth_shading", False):
+            raise
+    # PyVista 0.44 refuses smooth shading of a filter. Its output has the mesh's normals.
+    actor = plotter.add_mesh(refraction, smooth_shading=False, **arguments)
+    actor.prop.interpolation = "Phong"
+    return actor

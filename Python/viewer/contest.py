@@ -86,12 +86,14 @@ def _make_panel(found: Comparison, pixels: Any) -> Any:
     actor.SetMapper(mapper)
     renderer = vtkRenderer()
     renderer.AddViewProp(actor)
+    # The longest name fits into a picture of 220 pixels at full size.
+    scale = min(1.0, pixels.shape[1] / 220)
     lines = (found.name, f"{found.milliseconds:.1f} ms", f"RMS {found.rms:.2f} of 255")
     for index, line in enumerate(lines):
         text = vtkTextActor()
         text.SetInput(line)
-        text.SetPosition(12, pixels.shape[0] - 26 - 20 * index)
-        text.GetTextProperty().SetFontSize(18 if index == 0 else 15)
+        text.SetPosition(12 * scale, pixels.shape[0] - (26 + 20 * index) * scale)
+        text.GetTextProperty().SetFontSize(round((18 if index == 0 else 15) * scale))
         text.GetTextProperty().SetBold(index == 0)
         text.GetTextProperty().SetColor(*_INK)
         renderer.AddViewProp(text)

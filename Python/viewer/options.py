@@ -177,6 +177,8 @@ def read_toml(name: str) -> dict[str, Any]:
     try:
         with open(name, "rb") as file:
             text = file.read()
+    except FileNotFoundError:
+        raise ReadingError(f"{name}: there is no such file") from None
     except OSError as error:
         raise ReadingError(f"{name}: {error.strerror}") from None
     for module in ("tomllib", "tomli"):  # of Python 3.11; a package

@@ -198,7 +198,8 @@ class MeshScene:
             raise ReadingError(f"The mesh has no array '{name}'; it has " + ", ".join(arrays))
         association, _ = arrays[name]
         if limits and not -math.inf < limits[0] < limits[1] < math.inf:
-            raise ReadingError("The range of the colour map must have a lower end below the upper")
+            raise ReadingError("The range of the colour map must be two finite numbers, "
+                               "the lower one first")
         levels = Levels(self.data, name, association)
         if levels.is_empty:
             raise ReadingError(self._explain_no_values(name, association))

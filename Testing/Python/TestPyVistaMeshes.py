@@ -120,6 +120,16 @@ class TestMultiBlocks(unittest.TestCase):
         parts = refracted(pyvista.MultiBlock(self.halves), water, eye)
         numpy.testing.assert_allclose(parts.bounds, whole.bounds, atol=1e-6)
 
+    def test_refracted_and_smooth(self):
+        """Also with PyVista 0.44, which refuses smooth shading of a filter."""
+        water = pyvista.Plane(center=(0, 0, 0.6), i_size=9, j_size=9)
+        plotter = pyvista.Plotter(off_screen=True)
+        actor = refracted(pyvista.Sphere(), water, plotter, smooth_shading=True)
+        self.assertIn(actor.prop.interpolation.name, ("PHONG", "GOURAUD"))
+        with self.assertRaises(TypeError):
+            refracted(pyvista.Sphere(), water, plotter, smooth_shading=True, no_argument=1)
+        plotter.close()
+
 
 class TestComponents(unittest.TestCase):
     def test_a_choice_is_needed(self):

@@ -189,7 +189,7 @@ class Damage(unittest.TestCase):
 
     def test_options(self):
         good = self.write("good.vtu", make_file())
-        for options, message in ((("--range", "0", "inf"), "lower end below the upper"),
+        for options, message in ((("--range", "0", "inf"), "the lower one first"),
                                  (("--clip", ""), "no axis ''")):
             with self.subTest(options=options):
                 status, errors = self.run_command(good, *options)

@@ -265,7 +265,7 @@ class TestMessages(Case):
             with mock.patch.dict(sys.modules, absent):
                 status, _, errors = self.run_command("--config", self.name("absent.toml"))
             self.assertEqual(status, 1)
-            self.assertIn("absent.toml", errors)
+            self.assertIn("absent.toml: there is no such file", errors)
 
     def test_options_that_do_not_go_together(self):
         for arguments, message in ((["--watch", "--output", "x.png"], "--watch goes with"),
@@ -364,6 +364,8 @@ class TestCompare(Case):
                 self.assertGreater(pixels[lower:lower + 60, left:left + 120].max(), 60)
                 # The block, seen from (1, 0.7, 1), fills the height of its panel.
                 self.assertGreater(panel.any(axis=1).sum(), 50)
+                # The name of the mapper ends within its panel.
+                self.assertLess(pixels[lower + 66:lower + 80, left + 117:left + 120].max(), 20)
 
     def test_the_scene_stays(self):
         scene = make_scene(make_parser().parse([self.mesh, "--array", "z"]))
