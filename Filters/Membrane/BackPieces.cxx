@@ -81,19 +81,26 @@ std::size_t CountBackFacets(
     return 0;
   }
   surface.Prepare(SurfaceParts::Crossings, FacetLoop);
+  constexpr std::size_t mostTries = 16;             // facets of a piece
   std::vector<std::size_t> before(backs.size(), 0); // facets of each piece so far
-  std::size_t count = 0;
+  std::vector<std::size_t> tries(backs.size(), 0);
+  std::vector<std::size_t> seen(backs.size(), 0);
   for (std::size_t i = 0; i < pieces.PieceOf.size(); ++i)
   {
     const auto piece = static_cast<std::size_t>(pieces.PieceOf[i]);
-    const bool isMiddle = backs[piece] > 0 && before[piece]++ == backs[piece] / 2;
-    if (isMiddle &&
-      std::any_of(eyes.begin(), eyes.end(),
-        [&surface, i](const glm::dvec3& eye)
-        { return IsSeenDirectly(surface, static_cast<std::int32_t>(i), eye); }))
+    const std::size_t stride = backs[piece] / mostTries + 1;
+    if (backs[piece] > 0 && before[piece]++ % stride == 0)
     {
-      count += backs[piece];
+      ++tries[piece];
+      seen[piece] += std::any_of(eyes.begin(), eyes.end(),
+        [&surface, i](const glm::dvec3& eye)
+        { return IsSeenDirectly(surface, static_cast<std::int32_t>(i), eye); });
     }
+  }
+  std::size_t count = 0;
+  for (std::size_t piece = 0; piece < backs.size(); ++piece)
+  {
+    count += 2 * seen[piece] > tries[piece] ? backs[piece] : 0;
   }
   return count < pieces.PieceOf.size() ? count : 0;
 }

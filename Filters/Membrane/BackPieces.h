@@ -15,9 +15,9 @@ namespace meniscus
 
 /**
  * Number of facets of the open pieces that show no eye the side from which rays pass the surface,
- * and that some eye sees directly: rays end there without a refraction. Pieces whose middle facet
- * lies behind other parts of the surface do not count, such as the far window of a tank. 0 if all
- * pieces are such.
+ * and most of whose facets some eye sees directly: rays end there without a refraction. Pieces
+ * behind other parts of the surface do not count, such as the far window of a tank. 0 if all pieces
+ * are such.
  * @param eyes in world coordinates
  * @param side +1 if rays pass the surface from the side of its normals, otherwise -1
  */

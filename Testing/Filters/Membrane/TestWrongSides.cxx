@@ -234,12 +234,13 @@ TEST(WrongSides, AFinOnTheMembraneIsReported)
   EXPECT_TRUE(Contains(told->Text, "three or more of them share")) << told->Text;
 }
 
-/** Two pieces of water side by side, each with its side and height. */
-vtkSmartPointer<vtkPolyData> MakeTwoPieces(double firstSide, double secondSide, double height)
+/** A piece of water with its side, and a second one `x` aside and `height` above it. */
+vtkSmartPointer<vtkPolyData> MakeTwoPieces(
+  double firstSide, double secondSide, double x, double height)
 {
   vtkNew<vtkAppendPolyData> pieces;
   vtkNew<vtkTransform> aside;
-  aside->Translate(height == 0.0 ? 210.0 : 0.0, height, 0.0);
+  aside->Translate(x, height, 0.0);
   vtkNew<vtkTransformPolyDataFilter> moved;
   moved->SetTransform(aside);
   moved->SetInputData(MakeWater(secondSide));
@@ -249,7 +250,8 @@ vtkSmartPointer<vtkPolyData> MakeTwoPieces(double firstSide, double secondSide, 
   return pieces->GetOutput();
 }
 
-// Objects behind such a piece are lost. The far wall of a tank turns its back to the eye rightly.
+// Objects behind such a piece are lost. The far wall of a tank turns its back to the eye rightly,
+// also if a part of it is seen past the near one.
 TEST(WrongSides, APieceUpsideDownIsReported)
 {
   const char* const expected = "32 facets belong to pieces";
@@ -257,8 +259,9 @@ TEST(WrongSides, APieceUpsideDownIsReported)
   for (const bool isWrong : { true, false })
   {
     for (const auto& water : isWrong
-        ? std::vector{ MakeTwoPieces(1.0, -1.0, 0.0) }
-        : std::vector{ MakeTwoPieces(1.0, 1.0, 0.0), MakeTwoPieces(1.0, -1.0, -50.0) })
+        ? std::vector{ MakeTwoPieces(1.0, -1.0, 210.0, 0.0) }
+        : std::vector{ MakeTwoPieces(1.0, 1.0, 210.0, 0.0), MakeTwoPieces(1.0, -1.0, 0.0, -50.0),
+            MakeTwoPieces(1.0, -1.0, 80.0, -150.0) })
     {
       vtkNew<vtkTruePositionFilter> truth;
       truth->SetInputData(points);
