@@ -4,8 +4,8 @@
  * @class   vtkMembraneCellFilter
  * @brief   cells of a refracting membrane as wedges
  *
- * The part of space that an eye sees through a facet of the membrane: the prism between the three
- * refracted rays at the facet's corners (the thesis "Refraction by geometric transforms",
+ * Computes the part of space that an eye sees through each facet of the membrane: the prism between
+ * the three refracted rays at the facet's corners (the thesis "Refraction by geometric transforms",
  * Fig. 3.1). The cells show how a membrane spreads or focuses the view, and where objects must be
  * to be seen. The rays at the corners are exact for the membrane's points and normals.
  *
@@ -49,7 +49,10 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** @{ */
-  /** Set/Get the eye in world coordinates, finite. Default is (0, 0, 1). */
+  /**
+   * Set/Get the eye in world coordinates. Must be finite and not on the first surface; anything
+   * else is an error when the filter runs. Default is (0, 0, 1).
+   */
   vtkSetVector3Macro(EyePosition, double);
   vtkGetVector3Macro(EyePosition, double);
   /** @} */

@@ -59,7 +59,11 @@ public:
   };
 
   /** @{ */
-  /** Set/Get the name of the array with the number of the object point. Default is "PointId". */
+  /**
+   * Set/Get the name of the array with the number of the object point. A missing array, several
+   * components and values that are not whole numbers are errors when the filter runs. Default is
+   * "PointId".
+   */
   virtual void SetPointIdArrayName(const std::string& name);
   virtual std::string GetPointIdArrayName();
   /** @} */

@@ -251,7 +251,10 @@ public:
   /** @} */
 
   /** @{ */
-  /** Set/Get the meaning of the property's opacity. Default is ATTENUATION_COEFFICIENT. */
+  /**
+   * Set/Get the meaning of the property's opacity, as vtkTetrahedraRayCastMapper::SetOpacityModel()
+   * defines it. Default is ATTENUATION_COEFFICIENT.
+   */
   meniscusOpacityModelMacro();
   /** @} */
 
