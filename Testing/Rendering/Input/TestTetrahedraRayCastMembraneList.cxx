@@ -72,8 +72,8 @@ TEST(TetrahedraRayCastMembraneList, OnlyWhatChangedIsDoneAgain)
 {
   PaneScene scene;
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
-  const bool onDevice = BackendUnderTest() != vtkTetrahedraRayCastMapper::NATIVE;
   scene.RenderFloat();
+  const bool onDevice = mapper->GetActiveBackend() != vtkTetrahedraRayCastMapper::NATIVE;
   const auto expectWork = [&](const std::string& what, const std::function<void()>& change,
                             int builds, int sights, bool changesPicture, int interfaces = 2)
   {
