@@ -24,10 +24,11 @@ from meniscus.pyvista import add_volume, refracted
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkVersion
 from vtkmodules.vtkCommonDataModel import (
-    VTK_XYZ_GRID, vtkAMRBox, vtkAMRUtilities, vtkDataSetAttributes, vtkOverlappingAMR,
-    vtkUniformGrid)
+    vtkAMRBox, vtkAMRUtilities, vtkDataSetAttributes, vtkOverlappingAMR, vtkUniformGrid)
 
 SIZE = 120
+# VTK_XYZ_GRID, whose name depends on the version of VTK.
+XYZ_GRID = 8
 CELLS = 8
 FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Data", "Menagerie")
 
@@ -232,7 +233,7 @@ class TestTypes(unittest.TestCase):
         grid = vtkOverlappingAMR()
         grid.Initialize(2, [1, 1])
         grid.SetOrigin([0.0, 0.0, 0.0])
-        grid.SetGridDescription(VTK_XYZ_GRID)
+        grid.SetGridDescription(XYZ_GRID)
         for level, (low, high) in enumerate(((0, 3), (2, 5))):
             spacing, size = 0.5 ** level, high - low + 1
             grid.SetSpacing(level, [spacing] * 3)

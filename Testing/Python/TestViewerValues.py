@@ -10,8 +10,8 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (
-    VTK_LAGRANGE_TETRAHEDRON, VTK_XYZ_GRID, vtkAMRBox, vtkImageData, vtkMultiBlockDataSet,
-    vtkOverlappingAMR, vtkUniformGrid, vtkUnstructuredGrid)
+    VTK_LAGRANGE_TETRAHEDRON, vtkAMRBox, vtkImageData, vtkMultiBlockDataSet, vtkOverlappingAMR,
+    vtkUniformGrid, vtkUnstructuredGrid)
 from vtkmodules.vtkIOXML import (
     vtkXMLImageDataWriter, vtkXMLUniformGridAMRWriter, vtkXMLUnstructuredGridWriter)
 from vtkmodules.vtkRenderingCore import vtkRenderer
@@ -24,6 +24,8 @@ from meniscus.viewer.scene import LONGEST_NAME, MeshScene
 from meniscus.viewer.shown import Shown, choose_of_range
 
 SIDE = 4
+# VTK_XYZ_GRID, whose name depends on the version of VTK.
+XYZ_GRID = 8
 # Whole numbers from 0 to 16 at the points, no two differences alike.
 STEPS = numpy.array([(5 * x * x + 3 * y + 7 * x * z + 2 * z * z) % 17
                      for z in range(SIDE) for y in range(SIDE) for x in range(SIDE)])
@@ -149,7 +151,7 @@ class Values(unittest.TestCase):
         grid = vtkOverlappingAMR()
         grid.Initialize(3, [1, 1, 1])
         grid.SetOrigin([0.0, 0.0, 0.0])
-        grid.SetGridDescription(VTK_XYZ_GRID)
+        grid.SetGridDescription(XYZ_GRID)
         for level, (low, high) in enumerate(((0, 3), (2, 5), (6, 9))):
             spacing, size = 0.5 ** level, high - low + 1
             grid.SetSpacing(level, [spacing] * 3)
