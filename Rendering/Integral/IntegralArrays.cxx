@@ -34,7 +34,7 @@ int ComponentsOf(IntegralArray array, int bins)
   return array == IntegralArray::EnergyBins ? bins : array == IntegralArray::RGBA ? 4 : 1;
 }
 
-/** Rays of an energy bin that the mesh has changed, by what has become of them. */
+/** Counts the rays of an energy bin that the mesh absorbs, amplifies or otherwise changes. */
 class PassedRays
 {
 public:
@@ -305,7 +305,7 @@ std::string IntegralArrays::WarnOfBins(bool isEmitting, double opticalDepth) con
     {
       rays.Add(values[count * pixel + bin], this->Bins[bin].Intensity);
     }
-    // Light of the mesh may hide what is absorbed.
+    // If the mesh emits light, the intensity does not show how much was absorbed.
     const bool isLit =
       !isEmitting && this->Bins[bin].Intensity > 0.0 && this->Bins[bin].Emission == 0.0;
     const std::string fault = rays.DescribeFault(isLit);

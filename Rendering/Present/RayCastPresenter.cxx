@@ -108,7 +108,10 @@ glm::ivec2 Shown(int first, int last, int origin, int length, int size)
     origin + static_cast<int>(std::ceil(last * scale)) };
 }
 
-/** Sets how the shader and the window add an image; the shader does it if it has what is below. */
+/**
+ * Sets how an image is blended over the window's colours.
+ * @param hasUnder true if the shader has a copy of these colours and blends; otherwise OpenGL does.
+ */
 void SetBlending(vtkOpenGLState& state, vtkShaderProgram& shader, const RayCastOutput& output,
   const int viewport[4], bool hasUnder)
 {

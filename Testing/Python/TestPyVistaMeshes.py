@@ -21,14 +21,12 @@ except ImportError:
 
 import numpy
 from meniscus.pyvista import add_volume, refracted
-from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkVersion
-from vtkmodules.vtkCommonDataModel import (
-    vtkAMRBox, vtkAMRUtilities, vtkDataSetAttributes, vtkOverlappingAMR, vtkUniformGrid)
+from vtkmodules.vtkCommonDataModel import vtkAMRUtilities, vtkDataSetAttributes
+
+from RefinedGrid import make_refined_grid
 
 SIZE = 120
-# VTK_XYZ_GRID, whose name depends on the version of VTK.
-XYZ_GRID = 8
 CELLS = 8
 FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Data", "Menagerie")
 
@@ -230,23 +228,7 @@ class TestTypes(unittest.TestCase):
 
     def test_refined_grids(self):
         """A block of an AMR grid is drawn where no finer block is."""
-        grid = vtkOverlappingAMR()
-        grid.Initialize(2, [1, 1])
-        grid.SetOrigin([0.0, 0.0, 0.0])
-        grid.SetGridDescription(XYZ_GRID)
-        for level, (low, high) in enumerate(((0, 3), (2, 5))):
-            spacing, size = 0.5 ** level, high - low + 1
-            grid.SetSpacing(level, [spacing] * 3)
-            grid.SetAMRBox(level, 0, vtkAMRBox([low] * 3, [high] * 3))
-            block = vtkUniformGrid()
-            block.SetOrigin([low * spacing] * 3)
-            block.SetSpacing([spacing] * 3)
-            block.SetDimensions([size + 1] * 3)
-            array = numpy_to_vtk(numpy.full(size ** 3, level + 1.0), deep=True)
-            array.SetName("level")
-            block.GetCellData().AddArray(array)
-            grid.SetDataSet(level, 0, block)
-            grid.SetRefinementRatio(level, 2)
+        grid = make_refined_grid(((0, 3), (2, 5)))
         vtkAMRUtilities.BlankCells(grid)
         whole = pyvista.ImageData(dimensions=(9, 9, 9), spacing=(0.5,) * 3)
         inside = (abs(whole.cell_centers().points - 2.0) < 1.0).all(axis=1)

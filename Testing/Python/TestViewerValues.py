@@ -10,8 +10,7 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (
-    VTK_LAGRANGE_TETRAHEDRON, vtkAMRBox, vtkImageData, vtkMultiBlockDataSet, vtkOverlappingAMR,
-    vtkUniformGrid, vtkUnstructuredGrid)
+    VTK_LAGRANGE_TETRAHEDRON, vtkImageData, vtkMultiBlockDataSet, vtkUnstructuredGrid)
 from vtkmodules.vtkIOXML import (
     vtkXMLImageDataWriter, vtkXMLUniformGridAMRWriter, vtkXMLUnstructuredGridWriter)
 from vtkmodules.vtkRenderingCore import vtkRenderer
@@ -23,9 +22,9 @@ from meniscus.viewer.reading import MeshSeries, ReadingError
 from meniscus.viewer.scene import LONGEST_NAME, MeshScene
 from meniscus.viewer.shown import Shown, choose_of_range
 
+from RefinedGrid import make_refined_grid
+
 SIDE = 4
-# VTK_XYZ_GRID, whose name depends on the version of VTK.
-XYZ_GRID = 8
 # Whole numbers from 0 to 16 at the points, no two differences alike.
 STEPS = numpy.array([(5 * x * x + 3 * y + 7 * x * z + 2 * z * z) % 17
                      for z in range(SIDE) for y in range(SIDE) for x in range(SIDE)])
@@ -148,23 +147,7 @@ class Values(unittest.TestCase):
 
     def test_refined_grids(self):
         """A file of an AMR grid is read with all levels; finer cells take the place of coarse."""
-        grid = vtkOverlappingAMR()
-        grid.Initialize(3, [1, 1, 1])
-        grid.SetOrigin([0.0, 0.0, 0.0])
-        grid.SetGridDescription(XYZ_GRID)
-        for level, (low, high) in enumerate(((0, 3), (2, 5), (6, 9))):
-            spacing, size = 0.5 ** level, high - low + 1
-            grid.SetSpacing(level, [spacing] * 3)
-            grid.SetAMRBox(level, 0, vtkAMRBox([low] * 3, [high] * 3))
-            block = vtkUniformGrid()
-            block.SetOrigin([low * spacing] * 3)
-            block.SetSpacing([spacing] * 3)
-            block.SetDimensions([size + 1] * 3)
-            array = numpy_to_vtk(numpy.full(size ** 3, level + 1.0), deep=True)
-            array.SetName("level")
-            block.GetCellData().AddArray(array)
-            grid.SetDataSet(level, 0, block)
-            grid.SetRefinementRatio(level, 2)
+        grid = make_refined_grid(((0, 3), (2, 5), (6, 9)))
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         writer = vtkXMLUniformGridAMRWriter()

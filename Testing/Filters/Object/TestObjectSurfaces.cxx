@@ -337,7 +337,7 @@ TEST(ObjectSurfaces, BentPolygonsAreDividedWhole)
     view->Update();
     EXPECT_NEAR(SumAreas(view->GetOutput()), area, 1e-9);
   }
-  // A membrane that hardly refracts, seen from above, shows what lies below each of its triangles.
+  // A point has one image if a triangle of the divided membrane is above it.
   const auto through = MakeView(MakePoints({ { 44.0, -40.0, 34.0 } }));
   through->SetMembraneData(MakeBent(0.0, 60.0));
   through->SetInteriorIndexOfRefraction(1.001);

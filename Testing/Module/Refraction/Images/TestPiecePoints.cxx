@@ -9,7 +9,7 @@ namespace
 
 using namespace meniscus;
 
-/** Pieces of one primitive, whose points are told apart by a coordinate. */
+/** Adds pieces of one primitive. Each point is identified by one of its coordinates. */
 class Pieces
 {
 public:
